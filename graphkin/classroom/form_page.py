@@ -33,7 +33,7 @@ from graphkin.classroom.printing.answer_form import advice, why
 from graphkin.construction.core.quantities import CLOCKWISE, FORCE, SHEETS
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
-from graphkin.web.offline_page import FORM, part, together
+from graphkin.web.offline_page import FORM, bundled, part
 from graphkin.web.step_page import Form
 from graphkin.writers.templates import from_template
 
@@ -113,7 +113,7 @@ def form_fragment(
         sheets=sheets,
         words=words,
     )
-    return Form(body, part("form.css"), together(FORM), says_right)
+    return Form(body, part("form.css"), bundled(FORM), says_right)
 
 
 def settings(items: Sequence[Item], words: Words, identity: Identity) -> dict[str, object]:

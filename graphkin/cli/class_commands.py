@@ -174,7 +174,8 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
     Reports how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be
     derived again, and a copy of the lab with its house.toml. Unfair data from a formula are
     reported and still written, and the exit status is 1. Unfair data from ranges are drawn again
-    until they are fair.
+    until they are fair. If lab.toml gives each student several positions, each has an id of its
+    own, such as 0042-1.
 
     \b
     Example:
@@ -369,7 +370,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
         refuse_folder(folder)
     found = fair_ranges(lab)
     tell(range_lines(lab, found))
-    if not lab.rule.draws:
+    if not lab.rule.is_drawn:
         tell(labelled("formula", formula_lines(lab)))
     tell(["", *proposed(lab, found)])
     if folder is not None:
@@ -392,13 +393,13 @@ def formula_lines(lab: Lab) -> list[str]:
 
 def proposed(lab: Lab, found: FairRanges) -> list[str]:
     """The proposed ranges as text, with how many students get different data."""
-    from graphkin.classroom.lab.proposed_ranges import proposed_ranges, variants_lines
+    from graphkin.classroom.lab.proposed_ranges import proposed_ranges
 
     new = proposed_ranges(lab, found)
     if new is None:
         complain(NO_RANGES)
         return []
-    return [*(f"# {note}" for note in notes_of(new)), *variants_lines(new.ranges, new.course)]
+    return [*(f"# {note}" for note in notes_of(new)), *new.lines]
 
 
 def notes_of(new: ProposedRanges) -> list[str]:

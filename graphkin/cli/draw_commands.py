@@ -38,13 +38,14 @@ if TYPE_CHECKING:
 @output_option
 @click.option(
     "--view",
-    type=click.Choice(VIEWS),
+    "views",
+    metavar="VIEWS",
     default="key",
     show_default=True,
-    help="key: everything drawn; task: what the student is given; steps: pages that grow sentence"
-    " by sentence; overlay: the key alone, to lay over a drawing; positions: the mechanism and its"
-    " plans in all positions of [positions]; diagrams: their courses, differentiated and integrated"
-    " on paper, laws of cams, and hodographs.",
+    help="Views, separated by commas. key: everything drawn; task: what the student is given;"
+    " steps: pages that grow sentence by sentence; overlay: the key alone, to lay over a"
+    " drawing; positions: the mechanism and its plans in all positions of [positions]; diagrams:"
+    " their courses, differentiated and integrated on paper, laws of cams, and hodographs.",
 )
 @language_option
 @ink_option
@@ -63,7 +64,7 @@ def sheet(
     name: str,
     settings: tuple[str, ...],
     folder: Path,
-    view: str,
+    views: str,
     lang: str | None,
     ink: Ink | None,
     formats: str,
@@ -85,10 +86,11 @@ def sheet(
     Examples:
       graphkin sheet pump --set n=7 -o sheets
       graphkin sheet pump --set n=7 -o sheets --format html
-      graphkin sheet pump --set n=7 -o sheets --view task --lang en --format pdf
+      graphkin sheet pump --set n=7 -o sheets --view task,key --lang en --format pdf
       graphkin sheet pump --set n=7 -o sheets --view positions
     """
     kinds = option_words("--format", formats, ("svg", "pdf", "html", "dxf", "tikz", "tex", "pmks"))
+    chosen = option_words("--view", views, VIEWS)
     from graphkin.classroom.sheet_files import sheet_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 
@@ -96,7 +98,12 @@ def sheet(
     refuse_folder(folder)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
     ink = ink or mechanism.scene.house.ink
-    files, notes = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
+    files: dict[str, bytes] = {}
+    notes: dict[str, None] = {}
+    for view in chosen:
+        drawn, said = sheet_files(mechanism, name, stem, view, lang, kinds, ink)
+        files |= drawn
+        notes |= dict.fromkeys(said)
     tell(str(path) for path in write_all(folder, files, force))
     for note in notes:
         complain(note)
@@ -151,7 +158,7 @@ def sheet(
 @language_option
 @formats_option(
     "csv,xlsx,svg,png,gif,html",
-    "svg,png",
+    "svg",
     "Kinds of file to write; the tables are always written as CSV. xlsx: the tables as one"
     " workbook; needs the extra [class]. gif, html: mechanism and plans in motion, as a picture and"
     " as a page.",
@@ -200,17 +207,13 @@ def cycle(
         jump_words,
         positions_lines,
     )
-    from graphkin.motion.curves.curve_files import FORMATS as CURVES
-    from graphkin.motion.curves.curve_files import picture_files
     from graphkin.motion.cycle import cycle as moved
     from graphkin.motion.equal_positions import equal_positions
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.motion.transmission import all_extremes
     from graphkin.text.tables import csv_text
-    from graphkin.web.animation import animation_files
     from graphkin.writers.files import file_stem, refuse_folder, write_all
-    from graphkin.writers.workbook import workbook
 
     mechanism = mechanism_of(name, settings)
     stem = file_stem(mechanism.scene.name, pairs_of(settings))
@@ -235,10 +238,18 @@ def cycle(
     tables |= {"extremes": extremes_rows(found, reached)} if any(reached) else {}
     tables |= {"positions": cycle_rows(few)} if few is not None else {}
     files = {f"{stem}-{kind}.csv": csv_text(rows, "\n").encode() for kind, rows in tables.items()}
-    files |= {f"{stem}-cycle.xlsx": workbook(tables)} if "xlsx" in kinds else {}
-    curves = [kind for kind in kinds if kind in CURVES]
-    files |= picture_files(found, stem, curves) if curves else {}
-    files |= animation_files(found, stem, kinds, lang)
+    if "xlsx" in kinds:
+        from graphkin.writers.workbook import workbook
+
+        files[f"{stem}-cycle.xlsx"] = workbook(tables)
+    if curves := [kind for kind in kinds if kind in ("svg", "png")]:
+        from graphkin.motion.curves.curve_files import picture_files
+
+        files |= picture_files(found, stem, curves)
+    if {"gif", "html"} & {*kinds}:
+        from graphkin.web.animation import animation_files
+
+        files |= animation_files(found, stem, kinds, lang)
     tell(["", *(str(path) for path in write_all(folder, files, force))])
     if not agrees(found):
         complain("the independent route does not agree with the construction")

@@ -144,14 +144,15 @@ def grade(  # noqa: PLR0915
     be read, or that is signed with the id of another student. All other answers are marked.
 
     The class is looked at as a whole first. Nothing is marked where rows or columns are shifted or
-    in another order, where a column lost its decimal points, or where the answers are those of
-    another lab or scale. --as-it-is marks such a class.
+    in another order, where columns lost their decimal points or are in another unit, or where the
+    answers are those of another lab or scale. --as-it-is marks such a class.
 
     The tolerance of a value is the error of a careful pencil in that student's own drawing;
     tolerances.csv lists the tolerances. A sheet with wrong values is first explained as a whole: a
     cause that is known by name costs once, and everything that agrees with it is right. Any other
     wrong value is compared with what follows from the student's own earlier values. Writes
     marks.csv, a feedback page for each student and a report on the class, and fills in gradebooks.
+    Where students have several sheets, students.csv and gradebooks have the sum of their points.
 
     You have the last word: REPORT/decisions.csv is yours and is never overwritten. Its columns are
     id;field;points;reason. A row sets the points of a field, or of the whole form (total). Without
@@ -268,7 +269,7 @@ def grade(  # noqa: PLR0915
     spoken = words_in(TERMINAL)
     points = points_by_id(found, full)
     books = {
-        path: with_marks(read_gradebook(path), points, column, opened.signs, match or "")
+        path: with_marks(read_gradebook(path), points, column, opened.owners, match or "")
         for path in gradebooks
     }
     files |= {gradebook_name(path): book.data for path, book in books.items()}
@@ -447,14 +448,15 @@ def tell_books(
 ) -> None:
     """Report the gradebooks: the marks written, the students missing, and the unknown rows."""
     from graphkin.classroom.grading.answer_numbers import shown_cell
-    from graphkin.classroom.grading.grading_files import number
+    from graphkin.classroom.grading.grading_files import number, of_one_student
 
     graded = found.graded
     held = [each.taker.student.id for each in graded if each.held]
     waiting = [each.taker.student.id for each in graded if each.pending and not each.held]
     for path, book in books.items():
         say(words("class.filled", file=path.name, count=book.count, column=book.column))
-        points = scale or max((each.points for each in graded), default=None)
+        sheets = of_one_student(found).values()
+        points = scale or max((sum(each.points for each in own) for own in sheets), default=None)
         if book.worth != points:
             key = "class.worth_unknown" if book.worth is None else "class.worth"
             amounts = {"worth": number(book.worth or 0), "points": number(points or 0)}

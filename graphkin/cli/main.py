@@ -284,7 +284,7 @@ def solve(
         import json
 
         if units == "scene":
-            found = {"units": units_of(mechanism), **found}
+            found = in_units(found, mechanism, drawn_at)
         say(json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False))
     else:
         say(motion_words(mechanism.scene, solution, found, verdict))
@@ -294,6 +294,12 @@ def solve(
     doubtful |= by_forces is not None and not by_forces[1].agrees
     if doubtful or uncertain:
         leave(FAILED)
+
+
+def in_units(found: Any, mechanism: Mechanism, drawn_at: Scales | None) -> Any:
+    """The record with its units; kL is a length per metre of paper, as kv and ka are."""
+    scales = {"scales": {**found["scales"], "kL": drawn_at.kL}} if drawn_at is not None else {}
+    return {"units": units_of(mechanism), **found, **scales}
 
 
 def computed_in(mechanism: Mechanism, units: str | None, *, as_json: bool) -> Mechanism:

@@ -370,10 +370,11 @@ def option_words(option: str, text: str, known: tuple[str, ...]) -> tuple[str, .
     wrong = [word for word in words if word not in known]
     if wrong or not words:
         found = ", ".join(wrong) or "nothing"
-        expected = (
-            f"{found} is none of {', '.join(known)}; several are written {','.join(known[:2])}"
+        near = near_name(wrong[0], known) if wrong else ""
+        mend = f"did you mean {near}?" if near else f"several are written {','.join(known[:2])}"
+        raise click.UsageError(
+            f"{option}: {found} is none of {', '.join(known)}; {mend}", current()
         )
-        raise click.UsageError(f"{option}: {expected}", current())
     return tuple(word for word in known if word in words)
 
 

@@ -34,7 +34,10 @@ class PairReaction(Struct, frozen=True):
 
 
 class Balance(Struct, frozen=True):
-    """The force (N) or the moment (N·m) of a driver on its link that keeps the given motion."""
+    """The force (N) or the moment (N·m) of a driver on its link that keeps the given motion.
+
+    ``link`` is the driver's name: the driven link, or 1-2 where several drivers move link 1.
+    """
 
     link: str
     force: complex | None = None

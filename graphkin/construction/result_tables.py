@@ -10,7 +10,7 @@ from graphkin.construction.core.plan_vector import plan_vector
 from graphkin.construction.core.quantities import FORCE, RATES, OnPaper, in_mm, names_asked
 from graphkin.construction.core.relation import value_of
 from graphkin.construction.core.segments import segment_of
-from graphkin.drawing.columns import SMALL, ColumnTable, laid_out, on_sheets
+from graphkin.drawing.columns import HEIGHT, ColumnTable, laid_out, on_sheets
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import flowed
@@ -26,7 +26,7 @@ NUMBERS |= {"sides": (1, 2), "balance": (1, 2)}
 """The columns of numbers of each table; those before them name the row."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
-LEADING = 2.9
+LEADING = 3.9
 """Line spacing of the notes on computed values, in mm."""
 
 
@@ -199,9 +199,9 @@ def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
             names.setdefault(why, []).append(row.cells[0])
     mark = drawing.words("list_mark")
     said = [f"{mark.join(dict.fromkeys(found))}: {why}" for why, found in names.items()]
-    lines = flowed(said, "; ", rect[2] - rect[0], SMALL)
+    lines = flowed(said, "; ", rect[2] - rect[0], HEIGHT)
     first = rect[3] - LEADING * (len(lines) - 1)
     return [
-        Text(rect[0], first + LEADING * i, line, "caption", SMALL, name="computed")
+        Text(rect[0], first + LEADING * i, line, "caption", HEIGHT, name="computed")
         for i, line in enumerate(lines)
     ]

@@ -14,12 +14,12 @@ from msgspec import Struct
 
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import JERK, KINDS, OMEGA, RATES, SLIDING
+from graphkin.construction.core.quantities import EPSILON, JERK, KINDS, OMEGA, RATES, SLIDING
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.dual_numbers import at_rest, rate_of, with_rate
-from graphkin.scene.link_points import is_under
+from graphkin.scene.link_points import ends_of, is_under
 from graphkin.structure.pairs import Pin, Sliding
 
 RATE = "rate"
@@ -54,15 +54,39 @@ def rate_of_direction(direction: Point, omega: Real) -> Point:
     return 1j * direction * omega
 
 
+@action("jerk-of-link-under")
+def jerk_of_link_under(
+    rate: Point, omega: Real, epsilon: Real, velocity: Point, under: Point
+) -> Point:
+    """The jerk of the point of a link under another, which moves along the link.
+
+    ``rate`` is that of the acceleration under the moving point. It holds the share (iε - ω²)·v_r
+    of the points that it passes, which does not belong to the jerk of one of them.
+    """
+    slip = velocity - under
+    return rate - 1j * slip * epsilon + slip * omega * omega
+
+
 def draw_jerks(pen: Pen) -> None:
     """Write the jerk of every point that asks for it."""
     names = pen.scene.ask.jerk
     ends = [pen.the("acceleration", name) for name in names]
+    aside = {name: shares(pen, name) for name in names if is_under(name)}
     with pen.on(Part.RESULT, Plane.NUMBERS), pen.calls_for("jerk"):
         rates = Rates(pen, ends)
         for name, end in zip(names, ends, strict=True):
             found = rates.found.get(end)
-            pen.want(JERK, name, pen.given("origin") if found is None else found)
+            number = pen.given("origin") if found is None else found
+            if name in aside:
+                number = pen.draw(jerk_of_link_under, number, *aside[name])
+            pen.want(JERK, name, number)
+
+
+def shares(pen: Pen, name: str) -> tuple[int, ...]:
+    """The rotation of the link of A@3, and the velocities of A and of the point under A."""
+    point, link = ends_of(name)
+    rotation = (pen.the(OMEGA, link), pen.the(EPSILON, link))
+    return (*rotation, pen.the("velocity", point), pen.the("velocity", name))
 
 
 class Rates:

@@ -162,12 +162,20 @@ def slid_words(scene: Scene, found: Range, number: int) -> Message:
 
 
 def closing(scene: Scene, number: int = 1) -> ClosingRanges:
-    """The positions of one driver at which the whole mechanism can be drawn.
+    """The positions of one driver at which the whole mechanism can be drawn, sought once a scene.
 
     The closures are those of the scene, and the other drivers are at rest. The search covers one
     turn, or the reach of all lengths together; [(0, 360)] is a whole turn. Where groups are closed
     by trial, the number of positions depends on the work, and the result states it.
     """
+    known: dict[int, ClosingRanges] = scene.__dict__.setdefault("closing_ranges", {})
+    if number not in known:
+        known[number] = sought(scene, number)
+    return known[number]
+
+
+def sought(scene: Scene, number: int) -> ClosingRanges:
+    """The positions of one driver at which the whole mechanism can be drawn."""
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
     from graphkin.motion.period import wheels

@@ -1,4 +1,4 @@
-"""The A4 calculation pages: each relation with number, symbols, figures, result and sense."""
+"""The calculation, on A4 or Letter: relations with number, symbols, figures, result and sense."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from graphkin.construction.core.given_data import parameters
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.documents.relations import answers, in_results, relations
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.field import A4_AREA, A4_SIZE
-from graphkin.drawing.frame import page_frame
+from graphkin.drawing.field import A4_AREA, text_page
+from graphkin.drawing.frame import on_page, page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, box
 from graphkin.drawing.richtext import (
     TextRun,
@@ -29,9 +29,9 @@ from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
 from graphkin.text.errors import PageError, Problem, message
 
-EQUATION_LETTER, NOTE = 2.5, 1.8
+EQUATION_LETTER, NOTE = 2.5, 2.5
 """Heights of symbols and of the notes on what is known of them, in mm."""
-UNDER, BETWEEN, BELOW = 1.7, 0.6, 5.3
+UNDER, BETWEEN, BELOW = 1.7, 0.6, 5.9
 """Distances in mm: first line below a symbol, spacing of two lines, and baseline of the note.
 
 They keep a power in the note clear of both lines.
@@ -40,7 +40,7 @@ OVER, RAISED, BEYOND, HEAD = 3.2, 4.0, 0.35, 0.5
 """Arrows above vectors, in mm: height, height above a superscript, overhang, length of the head."""
 APART, SPACE = 1.6, 1.2
 """Least room between notes, and space between symbols, in mm."""
-DEPTH, UNDERLINED = 5.2, 2.0
+DEPTH, UNDERLINED = 5.8, 2.0
 """Extra depth of a line with notes, and of a line with underlines only, in mm."""
 
 
@@ -173,7 +173,8 @@ def calculation(
     ``computed`` gives, by symbol, the reason why a quantity is computed instead of measured.
     """
     rows = list(all_rows(drawings, computed, solved=view == "key"))
-    pages = laid_out(rows, solved=view == "key")
+    bottom = BOTTOM - text_page(drawings[0].paper.name).shorter
+    pages = laid_out(rows, solved=view == "key", bottom=bottom)
     return tuple(
         page_of(drawings[0], page, view, f"{i}/{len(pages)}") for i, page in enumerate(pages, 1)
     )
@@ -271,24 +272,24 @@ def dotted(line: str, room: float) -> str:
 
 
 def laid_out(
-    rows: Sequence[CalculationRow], *, solved: bool
+    rows: Sequence[CalculationRow], *, solved: bool, bottom: float = BOTTOM
 ) -> list[list[tuple[float, CalculationRow]]]:
     """The lines on as few pages as possible, balanced between the pages.
 
     Pages begin with a heading where that needs no extra page. Lines are spaced as widely as the
     number of pages allows.
     """
-    count = len(paged(rows, LINE, BOTTOM))
+    count = len(paged(rows, LINE, bottom))
     some = SOLVED if solved else BY_HAND
-    line = next((line for line in some if len(paged(rows, line, BOTTOM)) == count), LINE)
+    line = next((line for line in some if len(paged(rows, line, bottom)) == count), LINE)
 
-    def held(bottom: float, *, whole: bool) -> list[list[tuple[float, CalculationRow]]] | None:
-        pages = paged(rows, line, bottom, whole=whole)
+    def held(low: float, *, whole: bool) -> list[list[tuple[float, CalculationRow]]] | None:
+        pages = paged(rows, line, low, whole=whole)
         parted = whole and not all(page[0][1].heading for page in pages)
         return None if parted or len(pages) > count else pages
 
-    whole = held(BOTTOM, whole=True) is not None
-    low, high = TOP, BOTTOM
+    whole = held(bottom, whole=True) is not None
+    low, high = TOP, bottom
     while count > 1 and high - low > LINE:
         middle = (low + high) / 2
         low, high = (low, middle) if held(middle, whole=whole) else (middle, high)
@@ -324,7 +325,7 @@ def paged(
 def page_of(
     drawing: Drawing, rows: Sequence[tuple[float, CalculationRow]], view: str, number: str
 ) -> Page:
-    """One A4 page."""
+    """One page."""
     words = drawing.words
     title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
@@ -336,7 +337,8 @@ def page_of(
     else:
         foot = made, number
     boxed: list[float] = []
-    marks: list[Mark] = [*page_frame((title, name), foot, drawing.scene.house.header)]
+    page = text_page(drawing.paper.name)
+    marks: list[Mark] = [*page_frame((title, name), foot, drawing.scene.house.header, page)]
     for y, row in rows:
         look = "caption equation" if row.legend else "caption answer" if row.boxed else "caption"
         if row.heading:
@@ -353,6 +355,4 @@ def page_of(
     if boxed:
         high, low = boxed[0] - LINE + APART, boxed[-1] + APART
         marks.append(box(LEFT, high, RIGHT - LEFT, low - high, "panel answer"))
-    page = Page(*A4_SIZE, tuple(marks), f"{title_of(drawing)} – {name}", words.language)
-    page.check()
-    return page
+    return on_page(page, marks, f"{title_of(drawing)} – {name}", words.language)

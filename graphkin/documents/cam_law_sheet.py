@@ -50,6 +50,10 @@ SLOPE = 22.0
 """Half the length of the line along the steepest place of the lift, in mm."""
 JUMP = 1e-3
 """A jump of a derivative between two pieces, as a share of its largest size, that is reported."""
+LEVEL = 1e-12
+"""Share of the largest value within which a value stays the same."""
+PARTS, ROUNDS = 16, 9
+"""Parts into which the samples beside a largest value are cut at once, and how often."""
 PRESSED = 1e-6
 """Pressure angle in degrees above which it is no rounding."""
 ANGLE = "*α*"
@@ -84,42 +88,65 @@ class CamLaw(Struct, frozen=True, dict=True):
         shares = np.linspace(BESIDE, 1 - BESIDE, IN_PIECE + 1)
         return self.borders[:-1, None] + np.diff(self.borders)[:, None] * shares
 
-    @cached_property
-    def profile(self) -> CamProfile:
-        """The cam at the samples."""
+    def profile(self, at: Reals) -> CamProfile:
+        """The cam at some θ."""
         scene = self.found.cycle.scene
         start = float(self.cam.start.si(scene.values))
-        return CamProfile(scene, self.follower, given=(start + self.cam.sense * self.at).ravel())
+        return CamProfile(scene, self.follower, given=(start + self.cam.sense * at).ravel())
+
+    def orders_at(self, at: Reals) -> list[Reals]:
+        """The lift and its three derivatives by θ at some θ, in SI."""
+        profile, sense = self.profile(at), self.cam.sense
+        rise = profile.rise
+        every = rise.at, sense * rise.rate, rise.bend, sense * profile.third
+        return [np.broadcast_to(each, at.size).reshape(at.shape) for each in every]
+
+    def pressure_at(self, at: Reals) -> Reals:
+        """The pressure angle in degrees at some θ."""
+        return np.asarray(self.profile(at).pressure).reshape(at.shape)
 
     @cached_property
     def orders(self) -> list[Reals]:
-        """The lift and its three derivatives by θ, in SI."""
-        rise, sense = self.profile.rise, self.cam.sense
-        every = rise.at, sense * rise.rate, rise.bend, sense * self.profile.third
-        whole = self.at.shape
-        return [np.broadcast_to(each, self.at.size).reshape(whole) for each in every]
+        """The lift and its three derivatives at the samples."""
+        return self.orders_at(self.at)
 
     @cached_property
     def pressure(self) -> Reals:
-        """The pressure angle in degrees."""
-        return np.asarray(self.profile.pressure).reshape(self.at.shape)
+        """The pressure angle in degrees at the samples."""
+        return self.pressure_at(self.at)
 
     @property
     def is_pressed(self) -> bool:
         """Whether there is a pressure angle; under a flat face that slides there is none."""
         return bool(self.pressure.max() > PRESSED)
 
+    def largest(self, value: Callable[[Reals], Reals]) -> tuple[float, float]:
+        """Where a function of θ is largest, and its value; the middle of a level one.
+
+        The best sample is refined between its neighbours in its piece, to the rounding of doubles.
+        """
+        rows = value(self.at)
+        best = float(rows.max())
+        level = np.flatnonzero(rows.ravel() >= best - LEVEL * abs(best))
+        if len(level) > 2:
+            return float(self.at.ravel()[level[len(level) // 2]]), best
+        piece, k = np.unravel_index(int(rows.argmax()), rows.shape)
+        own = self.at[piece]
+        low, high, at = own[max(k - 1, 0)], own[min(k + 1, len(own) - 1)], own[k]
+        for _ in range(ROUNDS):
+            places = np.linspace(low, high, PARTS + 1)
+            found = value(places)
+            i = int(found.argmax())
+            if found[i] > best:
+                at, best = places[i], float(found[i])
+            low, high = places[max(i - 1, 0)], places[min(i + 1, PARTS)]
+        return float(at), best
+
     def steepest(self, sign: int) -> tuple[float, float] | None:
         """Where the lift grows (1) or falls (-1) fastest, and its slope; None where it does not."""
-        slope = self.orders[1] * sign
-        at = int(slope.argmax())
+        at, found = self.largest(lambda u: self.orders_at(u)[1] * sign)
         size = float(np.abs(self.orders[1]).max())
-        found = float(slope.ravel()[at])
-        if found <= JUMP * size:
-            return None
-        level = np.flatnonzero(slope.ravel() >= found * (1 - JUMP / 1000))
-        middle = int(level[len(level) // 2])
-        return float(self.at.ravel()[middle]), sign * found
+        return (at, sign * found) if found > JUMP * size else None
 
     def jumps(self, order: int) -> list[float]:
         """The borders at which a derivative jumps; a turn ends where it begins."""
@@ -297,8 +324,7 @@ def steepest_marks(law: CamLaw, frames: Sequence[Axes], every: Sequence[Strip]) 
             continue
         u, slope = found
         name = "steepest rise" if sign > 0 else "steepest return"
-        nearest = int(np.abs(law.at.ravel() - u).argmin())
-        x, y = lift.on_page(lift.place(u, float(law.orders[0].ravel()[nearest])))
+        x, y = lift.on_page(lift.place(u, float(law.orders_at(np.array([u]))[0][0])))
         rise = slope * lift.high / lift.wide
         along = SLOPE / float(np.hypot(1.0, rise))
         ends = (x - along, y + along * rise, x + along, y - along * rise)
@@ -337,7 +363,7 @@ def place_of(law: CamLaw, at: float) -> str:
     if law.cam.slides:
         unit = drawing.scene.units["length"]
         return f"{drawing.words.significant(drawing.length(at), 4)} {unit}"
-    return f"{drawing.words.fixed(float(np.degrees(at)), 1)}°"
+    return f"{drawing.words.fixed(float(np.degrees(at)), 2)}°"
 
 
 def sentences_of(law: CamLaw, every: Sequence[Strip]) -> list[str]:
@@ -358,12 +384,16 @@ def sentences_of(law: CamLaw, every: Sequence[Strip]) -> list[str]:
 
 def pressure_said(law: CamLaw) -> Iterator[str]:
     """The largest pressure angle with its customary limit."""
-    words, worst = law.found.shown.alone.words, int(law.pressure.argmax())
-    most, limit = float(law.pressure.ravel()[worst]), limit_of(law)
+    words, limit = law.found.shown.alone.words, limit_of(law)
+    at, most = law.largest(law.pressure_at)
     key = "diagrams.pressure_kept" if most <= limit else "diagrams.pressure_beyond"
-    numbers = {"most": f"{words.fixed(most, 1)}°", "limit": f"{limit:g}°"}
-    place = place_of(law, float(law.at.ravel()[worst]))
-    yield words(key, u=way_letter(law), at=place, **numbers)
+    numbers = {"most": f"{words.fixed(most, 3)}°", "limit": f"{limit:g}°"}
+    yield words(key, u=way_letter(law), at=place_of(law, at), **numbers)
+
+
+def size_of_order(law: CamLaw, order: int, at: Reals) -> Reals:
+    """The size of a derivative of the lift at some θ."""
+    return np.asarray(np.abs(law.orders_at(at)[order]))
 
 
 def in_time(law: CamLaw, every: Sequence[Strip]) -> Iterator[str]:
@@ -377,11 +407,12 @@ def in_time(law: CamLaw, every: Sequence[Strip]) -> Iterator[str]:
         return
     pace, lever = float(speed), law.cam.lever is not None
     unit = "rad" if lever else "m"
-    shown = [
-        drawing.words.significant(float(np.abs(values).max()) * abs(pace) ** order, 4)
-        + f" {unit}/s{'' if order == 1 else f'^{order}'}"
-        for order, values in enumerate(law.orders[1:], 1)
-    ]
+    shown = []
+    for order in (1, 2, 3):
+        _, most = law.largest(partial(size_of_order, law, order))
+        power = "" if order == 1 else f"^{order}"
+        size = drawing.words.significant(most * abs(pace) ** order, 4)
+        shown.append(f"{size} {unit}/s{power}")
     letter = "*v*" if law.cam.slides else "*ω*"
     own = drawing.words.significant(abs(pace), 4) + (" m/s" if law.cam.slides else " rad/s")
     rates = [

@@ -19,7 +19,15 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.drawing.field import A3, ABOVE, LEAST_FIELD, MARGIN, SheetPaper
-from graphkin.drawing.scale import Extent, Scales, digits, preferred, preferred_scales, ratio
+from graphkin.drawing.scale import (
+    Extent,
+    Scales,
+    digits,
+    is_standard,
+    preferred,
+    preferred_scales,
+    ratio,
+)
 from graphkin.text.errors import PageError, Problem, message
 
 TIMES = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.75, 0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.1, 0.05, 0.02)
@@ -54,6 +62,8 @@ WEIGHT = 1.3
 """Weight of the size of the mechanism against its plans together."""
 BLUR = 0.2
 """Loss in size where components are laid off e times as long as in their triangles."""
+RARE = 0.25
+"""Loss in size for a scale that ISO 5455 lacks: 1:5 goes before 1:4, but 1:2.5 before 1:5."""
 LINE = 0.1
 """Least ratio of a plan's breadth to its length; a plan below it counts as a line."""
 LITTLE = 0.12
@@ -304,6 +314,7 @@ def composed(
             lack += max(log(LITTLE / share), 0.0)
     small = sum(1 / size for size in sizes) / len(sizes) if sizes else 0.0
     size = -log(WEIGHT / (needs.bare.diagonal * mm) + small)
+    size -= 0.0 if stated.scale or stated.steps or is_standard(kL) else RARE
     blur = BLUR * max(log(times.get("acceleration", 1.0)), 0.0)
     return Composition(size - blur - lack, kL, times, lack)
 

@@ -164,11 +164,14 @@ def axis_lines(axes: Axes, name: str, said: str) -> Iterator[Mark]:
 
 
 def numbers_along(words: Words, axes: Axes, name: str, factor: float, count: int) -> Iterator[Mark]:
-    """The round numbers along an axis of ordinates."""
+    """The round numbers along an axis of ordinates: about ``count``, two beside zero at least."""
     left, top, _, low = axes.rect
-    pace = next(preferred((low - top) / axes.high * factor / count))
-    lowest = (axes.zero - low) / axes.high * factor
-    first, last = ceil(lowest / pace), floor((axes.zero - top) / axes.high * factor / pace)
+    lowest, highest = ((axes.zero - y) / axes.high * factor for y in (low, top))
+    for parts in (count, 2.5 * count):
+        pace = next(preferred((highest - lowest) / parts))
+        first, last = ceil(lowest / pace), floor(highest / pace)
+        if last - first - (first <= 0 <= last) >= 1:
+            break
     for k in range(first, last + 1):
         y = axes.zero - k * pace / factor * axes.high
         yield LineMark(left - 1.2, y, left + 1.2, y, "dimension", f"axis {name}")
@@ -771,6 +774,23 @@ def of_follower(motion: FollowerMotion, at: Reals, fine: Reals) -> list[Asked]:
     return made
 
 
+def of_forces(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
+    """The asked reactions, by their sizes, and the balance; these sheets have no plan of them."""
+    along = found.cycle.along(fine)
+    if along.forces is None:
+        return []
+    rows, nothing = np.searchsorted(fine, along.at), np.full(len(at), np.nan)
+    made = []
+    for (what, name), values in along.forces.values.items():
+        quantity = BY_TARGET[what]
+        letter = found.shown.alone.symbol(name)
+        whole = np.full(len(fine), np.nan)
+        whole[rows] = np.abs(values) if quantity.sort == "vector" else values
+        text = f"|{letter}|" if quantity.sort == "vector" else letter
+        made.append(Asked(text, quantity.unit, name, "profile", nothing, whole))
+    return made
+
+
 def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     """What the scene asks for at the positions and between them."""
     measures = [*asked_measures(found.cycle)]
@@ -827,6 +847,7 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     at = found.planned_places
     fine = np.linspace(at[0], at[-1], FINE + 1)
     every = asked_courses(found, at, fine)
+    every += of_forces(found, at, fine)
     every += of_follower(motion, at, fine) if motion else []
     every += force_courses(found, at, fine)
     every = [each for each in every if np.isfinite(each.fine).any()]

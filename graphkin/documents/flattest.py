@@ -19,7 +19,7 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import without_index
 
-HEIGHT = 1.8
+HEIGHT = 2.5
 """Height of the lettering in mm."""
 APART = 2.5
 """Room in mm between this line and the text before it."""

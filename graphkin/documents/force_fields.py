@@ -23,7 +23,7 @@ from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.richtext import extent, flowed, words_of
-from graphkin.drawing.scale import REDUCED, Extent, preferred
+from graphkin.drawing.scale import DIGITS, Extent, preferred
 from graphkin.numbers.arithmetic import larger, np, pick, smaller
 from graphkin.numbers.plane import Line
 from graphkin.text.errors import PageError, Problem, message
@@ -88,7 +88,7 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
         part = fields[-1]
         room = part[2] - part[0] - 2 * LEVER_SIDE, part[3] - part[1] - 2 * LEVER_SIDE
         sizes = (lever.width / room[0], lever.height / room[1])
-        k = next(preferred(max(sizes), REDUCED))
+        k = next(preferred(max(sizes), DIGITS))
         own = field_of(lever, part, 1 / k, 2.0)
         scales = replace(scales, k_lever=1000 * k)
     found_at = ForceLayout(mechanism, Field(rect, 1.0, 0j, centre(rect)), {}, polygons, own)
@@ -146,7 +146,7 @@ def smallest(cells: Sequence[FieldNeed], wide: Any, high: float) -> Any:
     least = np.where(largest > 0, largest / high, 1.0)
     kF, waiting = np.full(np.shape(wide), np.nan), np.isfinite(least)
     most = SPAN * max(least[waiting], default=0.0)
-    for each in preferred(min(least[waiting], default=1.0), REDUCED):
+    for each in preferred(min(least[waiting], default=1.0), DIGITS):
         if each > most or not waiting.any():
             return kF
         free = (slack(cells, rows, wide, high, 1 / each) for rows in arrangements(len(cells)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import product
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
@@ -12,8 +11,8 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
 from graphkin.text.errors import Message, PageError, Problem, message
 
-LOOKS = ((2.5, 5.6, 3.6), (2.2, 4.9, 3.4), (1.8, 4.0, 3.4))
-"""Heights of lettering, each with the largest and the least distance of its lines, in mm."""
+HEIGHT, MOST, LEAST = 2.5, 5.6, 3.6
+"""Height of lettering, and the largest and the least distance of its lines, in mm."""
 SHORTER = (0.0, 4.0, 8.0, 12.0, 16.0)
 """Reductions of line width tried in mm, until no characters touch."""
 FINE = 0.05
@@ -30,23 +29,18 @@ Numbered = tuple[str, str]
 def listed(drawing: Drawing, x: float, y: float, width: float, bottom: float) -> list[Mark]:
     """The sentences from a place on, with their lines as far apart as there is room.
 
-    Where characters of neighbouring lines would touch, lines are shortened, then the lettering is
-    made smaller. Raises PageError where there are too many lines even in small lettering.
+    Where characters of neighbouring lines would touch, lines are shortened. Raises PageError where
+    there are too many lines.
     """
-    looks = [look for look in LOOKS if look[0] >= drawing.paper.smallest]
-    for (height, most, least), less in product(looks, SHORTER):
-        flown = both_ways(drawing, x, width - less, height)
-        for leading in distances(most, least):
+    for less in SHORTER:
+        flown = both_ways(drawing, x, width - less)
+        for leading in distances():
             lines = lined(*flown, int((drawing.paper.marked[1] - y) / leading + 1))
             if y + (len(lines) - 1) * leading <= bottom:
+                if are_clear([line for _, line in lines], HEIGHT, leading):
+                    return written(lines, x, y, leading)
                 break
-        else:
-            continue
-        if height == LOOKS[-1][0] or are_clear([line for _, line in lines], height, leading):
-            break
-    else:
-        raise too_long(len(lines), message("ask for less on one sheet"))
-    return written(lines, x, y, height, leading)
+    raise too_long(len(lines), message("ask for less on one sheet"))
 
 
 def first_part(
@@ -54,10 +48,10 @@ def first_part(
 ) -> tuple[list[Mark], int]:
     """As many whole sentences as leave a line free below them, and their number.
 
-    They have the largest lettering; the free line says that the rest is on the continuation sheet.
+    The free line says that the rest is on the continuation sheet.
     """
-    height, leading = LOOKS[0][0], PARTED
-    wide, narrow = both_ways(drawing, x, width, height)
+    leading = PARTED
+    wide, narrow = both_ways(drawing, x, width)
     above = int((drawing.paper.marked[1] - y) / leading + 1)
     room = int((bottom - y) / leading)
     said = max(
@@ -67,32 +61,28 @@ def first_part(
     )
     lines = lined(wide[:said], narrow[:said], above)
     lines.append(("", drawing.words("page.goes_on" if said else "page.moved")))
-    return written(lines, x, y, height, leading), said
+    return written(lines, x, y, leading), said
 
 
-def both_ways(
-    drawing: Drawing, x: float, width: float, height: float
-) -> tuple[list[list[str]], list[list[str]]]:
+def both_ways(drawing: Drawing, x: float, width: float) -> tuple[list[list[str]], list[list[str]]]:
     """The lines of each sentence at full width, and clear of the centring mark."""
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
     return (
-        [flowed(words, " ", width - INDENT, height) for words in said],
+        [flowed(words, " ", width - INDENT, HEIGHT) for words in said],
         [
-            flowed(words, " ", min(width, drawing.paper.marked[0] - x) - INDENT, height)
+            flowed(words, " ", min(width, drawing.paper.marked[0] - x) - INDENT, HEIGHT)
             for words in said
         ],
     )
 
 
-def written(
-    lines: Sequence[Numbered], x: float, y: float, height: float, leading: float
-) -> list[Mark]:
+def written(lines: Sequence[Numbered], x: float, y: float, leading: float) -> list[Mark]:
     """Lines of sentences with their numbers before them, from a place on."""
     marks: list[Mark] = []
     for i, (number, line) in enumerate(lines):
         if number:
-            marks.append(Text(x + 5, y + i * leading, number, "caption", height, "end"))
-        marks.append(Text(x + INDENT, y + i * leading, line, "caption", height))
+            marks.append(Text(x + 5, y + i * leading, number, "caption", HEIGHT, "end"))
+        marks.append(Text(x + INDENT, y + i * leading, line, "caption", HEIGHT))
     return marks
 
 
@@ -102,15 +92,14 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
     The first ``begun`` sentences are left out. Raises PageError where there are too many.
     """
     said = [words_of(sentence.markup) for sentence in sentences(drawing)]
-    for height, most, least in (x for x in LOOKS if x[0] >= drawing.paper.smallest):
-        sets = [
-            [flowed(words, " ", right - left - INDENT, height) for words in said]
-            for left, _, right, _ in columns
-        ]
-        for leading in distances(most, least):
-            marks, after = filled(sets, columns, height, leading, begun)
-            if after == len(said):
-                return marks
+    sets = [
+        [flowed(words, " ", right - left - INDENT, HEIGHT) for words in said]
+        for left, _, right, _ in columns
+    ]
+    for leading in distances():
+        marks, after = filled(sets, columns, leading, begun)
+        if after == len(said):
+            return marks
     raise too_long(
         sum(map(len, sets[0])), message("view the steps, a sentence on each page: --view steps")
     )
@@ -119,29 +108,27 @@ def in_columns(drawing: Drawing, columns: Sequence[Rect], begun: int) -> list[Ma
 def on_sheets(drawing: Drawing, columns: Sequence[Rect], begun: int) -> Iterator[list[Mark]]:
     """The sentences after the first ``begun``, on as many sheets of equal columns as they need.
 
-    They have large lettering. A sentence longer than a column is divided.
+    A sentence longer than a column is divided.
     """
-    height, leading, _ = LOOKS[0]
     widths = [right - left - INDENT for left, _, right, _ in columns]
-    room = int(min(low - top for _, top, _, low in columns) / leading) + 1
+    room = int(min(low - top for _, top, _, low in columns) / MOST) + 1
     parts: list[tuple[str, list[str]]] = []
     for number, sentence in enumerate(sentences(drawing)[begun:], begun + 1):
-        lines = flowed(words_of(sentence.markup), " ", min(widths), height)
+        lines = flowed(words_of(sentence.markup), " ", min(widths), HEIGHT)
         starts = range(0, len(lines), room)
         parts += [(f"{number}." * (k == 0), lines[k : k + room]) for k in starts]
     numbers = [number for number, _ in parts]
     whole = [words_of(" ".join(lines)) for _, lines in parts]
-    sets = [[flowed(words, " ", width, height) for words in whole] for width in widths]
+    sets = [[flowed(words, " ", width, HEIGHT) for words in whole] for width in widths]
     after = 0
     while after < len(parts):
-        marks, after = filled(sets, columns, height, leading, after, numbers)
+        marks, after = filled(sets, columns, MOST, after, numbers)
         yield marks
 
 
 def filled(
     sets: Sequence[list[list[str]]],
     columns: Sequence[Rect],
-    height: float,
     leading: float,
     begun: int,
     numbers: Sequence[str] = (),
@@ -160,9 +147,9 @@ def filled(
             y = columns[place][1]
         x = columns[place][0]
         if number_text := numbers[number] if numbers else f"{number + 1}.":
-            marks.append(Text(x + 5, y, number_text, "caption", height, "end"))
+            marks.append(Text(x + 5, y, number_text, "caption", HEIGHT, "end"))
         for line in sets[place][number]:
-            marks.append(Text(x + INDENT, y, line, "caption", height))
+            marks.append(Text(x + INDENT, y, line, "caption", HEIGHT))
             y += leading
     return marks, len(sets[0])
 
@@ -176,10 +163,10 @@ def too_long(lines: int, hint: Message) -> PageError:
     return PageError(Problem("construction", found, expected, hint))
 
 
-def distances(most: float, least: float) -> Iterator[float]:
+def distances() -> Iterator[float]:
     """Distances of lines from the largest to the least."""
-    for i in range(round((most - least) / FINE) + 1):
-        yield round(most - i * FINE, 3)
+    for i in range(round((MOST - LEAST) / FINE) + 1):
+        yield round(MOST - i * FINE, 3)
 
 
 def lined(wide: list[list[str]], narrow: list[list[str]], above: int) -> list[Numbered]:

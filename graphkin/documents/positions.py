@@ -31,7 +31,8 @@ from graphkin.motion.follower_limits import Follower, followers
 from graphkin.motion.pieces import Piece, reachable_ranges
 from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import StatedPositions
-from graphkin.scene.quantity import Quantity
+from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.requests import FEWEST_STEPS, MOST_STEPS
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError, WitnessError, message
 
@@ -150,7 +151,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     path = reachable_ranges(sweep)
     middle = np.array([sum(path.spans[0]) / 2])
     moved = cycle_at(mechanism, sweep, path, middle, tuple(targets))
-    at = equal_places(moved, wanted.count, start_of(mechanism), "positions.start")
+    at = equal_places(moved, count_of(mechanism), start_of(mechanism), "positions.start")
     refuse_numbers(wanted, len(at))
     few = moved.along(at)
     unseen = {*mechanism.scene.unseen, *(cam.link for cam in mechanism.scene.cams.values())}
@@ -191,6 +192,21 @@ def rates_of(mechanism: Mechanism) -> list[Target]:
     every = dict.fromkeys(t for kind in SHEETS for t in targets_of(mechanism, kind))
     rates = {q.target for q in QUANTITIES if q.kind in SHEETS and q.sort in ("vector", "number")}
     return [target for target in every if target[0] in rates]
+
+
+def count_of(mechanism: Mechanism) -> int:
+    """The number of equal steps. Raises SceneError where a formula gives no allowed number."""
+    count = mechanism.scene.positions.count
+    if isinstance(count, int):
+        return count
+    value = count.number(mechanism.scene.values)
+    if value != int(value) or not FEWEST_STEPS <= value <= MOST_STEPS:
+        expected = message(
+            "a whole number from {least} to {most}", least=FEWEST_STEPS, most=MOST_STEPS
+        )
+        found = message("{text} gives {value}", text=count.text, value=shortest(value))
+        raise SceneError(Problem("positions.count", found, expected))
+    return int(value)
 
 
 def start_of(mechanism: Mechanism) -> Start | float:

@@ -528,7 +528,11 @@ def dimension(
 ROW, FIRST = 4.6, 26.0
 """Height of a row and width of its head, in mm."""
 IN_ROW = 16
-"""The most positions in one row of the table."""
+"""The most positions in one row of the table, where there is room for all rows."""
+CLOSE = (3.1, 0.5)
+"""Height of a row and distance of pairs of rows in a table of many positions, in mm."""
+PROOF = 3.2
+"""Room for the sentence of the residual check at the foot, in mm."""
 
 
 def places_table(
@@ -536,7 +540,7 @@ def places_table(
 ) -> Iterator[Mark]:
     """The numbers of some positions above the places of the driver there, and sentences below."""
     words, sweep = found.shown.alone.words, found.cycle.sweep
-    left, top, right, _ = found.shown.alone.paper.leaf.notes
+    left, top, right, foot = found.shown.alone.paper.leaf.notes
     top += 4
     unit = "°" if sweep.what == "turn" else sweep.original.units["length"]
     if sweep.driver is None:
@@ -545,28 +549,34 @@ def places_table(
         name = angle_symbol(sweep.original, sweep.driver)
         head_of = f"{name} ({unit})"
     names, values = [each.name for each in some], numbers_of(found)
+    lines = flowed(said, "; ", right - left, 2.5)
     count = -(-len(names) // IN_ROW)
+    room = foot - PROOF - top - 4.2 * len(lines)
+    own, gap = (ROW, 1.5) if count * (2 * ROW + 1.5) <= room else CLOSE
+    count = min(count, max(int(room / (2 * own + gap)), 1))
     per = -(-len(names) // count)
     width = (right - left - FIRST) / per
+    small = width <= 11 or own < ROW
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
-        begin = top + k * (2 * ROW + 1.5)
+        begin = top + k * (2 * own + gap)
         rows = ((words("positions.number"), names[row]), (head_of, values[row]))
         end = left + FIRST + width * len(names[row])
-        yield box(left, begin, end - left, ROW, "shade")
+        yield box(left, begin, end - left, own, "shade")
         for i, (first, texts) in enumerate(rows):
-            base = begin + i * ROW + ROW - 1.3
-            yield Text(left + 1.5, base, first, "table", 2.5, name="positions")
+            base = begin + i * own + (own if own == ROW else own + 0.6) - 1.3
+            tall = 2.5 if own == ROW else 1.8
+            yield Text(left + 1.5, base, first, "table", tall, name="positions")
             for j, text in enumerate(texts):
                 x = left + FIRST + width * (j + 0.5)
-                height = 2.5 if width > 11 else 1.8
+                height = 1.8 if small else 2.5
                 yield Text(x, base, text, "table", height, "middle", "positions")
         for i in range(3):
-            yield LineMark(left, begin + i * ROW, end, begin + i * ROW, "panel")
+            yield LineMark(left, begin + i * own, end, begin + i * own, "panel")
         for x in (left, *(left + FIRST + width * j for j in range(len(names[row]) + 1))):
-            yield LineMark(x, begin, x, begin + 2 * ROW, "panel")
-    low = top + count * (2 * ROW + 1.5) + 3.5
-    for i, line in enumerate(flowed(said, "; ", right - left, 2.5)):
+            yield LineMark(x, begin, x, begin + 2 * own, "panel")
+    low = top + count * (2 * own + gap) + 3.5
+    for i, line in enumerate(lines):
         yield Text(left, low + 4.2 * i, line, "caption", 2.5, name="legend")
 
 

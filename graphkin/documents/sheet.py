@@ -186,8 +186,6 @@ with its rows, three are as high as the table.
 """
 SPACED, CLOSE = 4.2, 3.85
 """Distance of two lines of data without a table, and of more lines, in mm."""
-SMALL, NEAR = 2.0, (3.3, 2.8, 2.45)
-"""Height of letters in mm where drawings leave no room for larger ones, and distances of lines."""
 AIR = 1.0
 """Extra distance in mm of the captions from many lines of data: both may have large letters."""
 SHORTER = (0.0, *range(4, 49, 4))
@@ -277,8 +275,8 @@ def in_lines(
 ) -> list[Mark]:
     """All data in lines that end where their characters are clear of each other.
 
-    More lines than usual extend down as far as the drawings leave room; otherwise the lettering is
-    smaller, and long data may be divided within a piece. All lines stay clear of the fields'
+    More lines than usual extend down as far as the drawings leave room; otherwise long data may be
+    divided within a piece. All lines stay clear of the fields'
     captions, even below a title of two lines.
     """
     first, *pieces = (datum.said for datum in found)
@@ -286,18 +284,18 @@ def in_lines(
     paper = drawing.paper
     width = paper.left[2] - x - 3
     parted = words_of("; ".join(pieces))
-    for i, (height, leading, room) in enumerate(looks(lowest(paper) - y, spare)):
+    for i, (leading, room) in enumerate(looks(lowest(paper) - y, spare)):
         for parts, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
-            lines = spread(parts, mark, width, height, leading)
-            if len(lines) <= room and all(extent(line, height)[0] <= width for line in lines):
+            lines = spread(parts, mark, width, LETTERS, leading)
+            if len(lines) <= room and all(extent(line, LETTERS)[0] <= width for line in lines):
                 return [
-                    Text(x, y + row * leading, line, "caption", height, name=NAME)
+                    Text(x, y + row * leading, line, "caption", LETTERS, name=NAME)
                     for row, line in enumerate(lines)
                 ]
     raise PageError(
         Problem(
             "data",
-            message("does not fit: {count} lines of small lettering", count=len(lines)),
+            message("does not fit: {count} lines", count=len(lines)),
             message("fewer lines above the drawings"),
             message("shorten names and notes, or split the scene"),
         )
@@ -318,17 +316,14 @@ def lowest(paper: SheetPaper) -> float:
     return paper.fields[1] - UNDER
 
 
-def looks(room: float, spare: Callable[[], float]) -> Iterator[tuple[float, float, int]]:
-    """The possible forms of lines in a room above the captions: letters, distance in mm, number.
+def looks(room: float, spare: Callable[[], float]) -> Iterator[tuple[float, int]]:
+    """The possible forms of lines in a room above the captions: distance in mm, and number.
 
-    First the preferred form, then lines down to the drawings, then small lettering.
+    First the preferred form, then lines down to the drawings.
     """
-    yield LETTERS, SPACED, 2
-    yield LETTERS, CLOSE, rows(room, CLOSE)
-    free = spare() - AIR
-    yield LETTERS, CLOSE, rows(room + free, CLOSE)
-    yield from ((SMALL, leading, rows(room, leading)) for leading in NEAR)
-    yield SMALL, NEAR[1], rows(room + free, NEAR[1])
+    yield SPACED, 2
+    yield CLOSE, rows(room, CLOSE)
+    yield CLOSE, rows(room + spare() - AIR, CLOSE)
 
 
 def height_beyond(paper: SheetPaper, marks: Sequence[Mark]) -> float:
@@ -649,7 +644,7 @@ def title_line(
     ]
     end, y = paper.left[2], paper.area[1] + (9.5 if paper.lowered else 5.5)
     marks += check_bar(end - 106, y)
-    marks.append(Text(end - 109, y, words("page.check_bar"), "check-bar", 1.8, "end"))
+    marks.append(Text(end - 109, y, words("page.check_bar"), "check-bar", 2.5, "end"))
     if paper.is_parted:
         marks += [moved(mark, paper.across, 0) for mark in marks]
     return marks, left, data
@@ -819,8 +814,8 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     if view == "task":
         return marks, moved, said
     text = checked_line(drawing)
-    marks.append(Text(left, low + 0.8, text, "caption", 1.8, name="witness"))
-    return [*marks, *flattest_line(drawing, left + extent(text, 1.8)[0])], moved, said
+    marks.append(Text(left, low + 0.8, text, "caption", LETTERS, name="witness"))
+    return [*marks, *flattest_line(drawing, left + extent(text, LETTERS)[0])], moved, said
 
 
 def checked_line(drawing: Drawing) -> str:

@@ -36,7 +36,7 @@ from graphkin.drawing.field import Field, SheetPaper
 from graphkin.drawing.labels import BETWEEN, NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
-from graphkin.drawing.style import NOW
+from graphkin.drawing.style import DRAWN, NOW
 from graphkin.scene.link_points import lettered
 
 AT_LAST = ("detail", "note")
@@ -334,28 +334,104 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
         if not is_gap(drawing, each)
     ]
     title = page_title(drawing)
-    fields = [tuple(marks_at_stage(timed, stage, telling)) for stage in range(len(said))]
+    timed, telling, parts = in_strokes(timed, staged, telling, len(said))
+    fields = [tuple(marks_at_stage(timed, place, telling)) for place in range(len(parts))]
     at = step_lines(drawing.paper)
 
     def is_held(first: int, last: int) -> bool:
-        return to_do(said, first, last, at).is_held
+        return to_do(said, parts[first].stage, parts[last].stage, at).is_held
 
     return tuple(
         page
-        for first, stage in spans(fields, is_held)
+        for first, place in spans(fields, is_held)
+        for begins, part in [(parts[first].stage, parts[place])]
         for page in pages_of(
             drawing,
-            replace(block, sheet=numbered(drawing, number, stage, len(said))),
+            replace(block, sheet=numbered(drawing, number, part, len(said))),
             (
                 *same,
-                *fields[stage],
-                *(last if stage == len(said) - 1 else ()),
-                *text_block(drawing, said, first, stage, at),
-                *crossed(drawing, [line for at, line in lines if first <= at <= stage]),
+                *fields[place],
+                *(last if place == len(parts) - 1 else ()),
+                *text_block(drawing, said, begins, part, at),
+                *crossed(drawing, [line for at, line in lines if begins <= at <= part.stage]),
             ),
-            f"{title}, {stage + 1}/{len(said)}",
+            f"{title}, {part.number}/{len(said)}",
         )
     )
+
+
+STROKES = 3
+"""Largest number of new lines, arcs and vectors on a page."""
+
+
+class StepPart(NamedTuple):
+    """A page of a sentence: the sentence (from 0), and the letter of the page if it has several."""
+
+    stage: int
+    letter: str
+
+    @property
+    def number(self) -> str:
+        """The number of the sentence and the letter: 3, or 3a."""
+        return f"{self.stage + 1}{self.letter}"
+
+
+def in_strokes(
+    timed: Sequence[tuple[int, Mark]],
+    staged: Mapping[int, int],
+    telling: Mapping[str, int],
+    count: int,
+) -> tuple[list[tuple[int, Mark]], dict[str, int], list[StepPart]]:
+    """The marks and the names by page instead of by sentence, and the pages of all sentences.
+
+    A sentence of more than STROKES lines, arcs and vectors has several pages, in the order of its
+    steps. A point or a letter appears with the last stroke of its own step or of earlier ones.
+    """
+    strokes: list[dict[Stroke, None]] = [{} for _ in range(count)]
+    for stage, mark in sorted(timed, key=lambda each: -1 if each[1].step is None else each[1].step):
+        if stage >= 0 and (key := stroke_of(mark)):
+            strokes[stage][key] = None
+    pages = [max(-(-len(some) // STROKES), 1) for some in strokes]
+    begins = [sum(pages[:stage]) for stage in range(count)]
+    nth = [{key: i // STROKES for i, key in enumerate(some)} for some in strokes]
+
+    def place(stage: int, key: Stroke | None, step: int | None) -> int:
+        if stage < 0:
+            return stage
+        if key is not None and key in nth[stage]:
+            return begins[stage] + nth[stage][key]
+        ended = [at for own, at in nth[stage].items() if step is None or own[0] <= step]
+        return begins[stage] + max(ended, default=0)
+
+    steps = {m.name: m.step for _, m in timed if m.step is not None and m.name}
+    parts = [
+        StepPart(stage, lettered_as(i) if many > 1 else "")
+        for stage, many in enumerate(pages)
+        for i in range(many)
+    ]
+    return (
+        [(place(stage, stroke_of(mark), mark.step), mark) for stage, mark in timed],
+        {name: place(stage, None, steps.get(name)) for name, stage in telling.items()},
+        parts,
+    )
+
+
+def lettered_as(place: int) -> str:
+    """The letter of a page from 0: a to z, then aa, ab …"""
+    more, last = divmod(place, 26)
+    return (lettered_as(more - 1) if more else "") + chr(ord("a") + last)
+
+
+Stroke = tuple[int, str, str]
+"""The step of a line, arc or vector, its class and its name."""
+
+
+def stroke_of(mark: Mark) -> Stroke | None:
+    """The stroke to which a mark belongs; the pieces of one line are one stroke."""
+    look = style_class(mark)
+    if mark.step is None or isinstance(mark, Text) or look not in DRAWN:
+        return None
+    return mark.step, look, mark.name
 
 
 def spans(
@@ -373,9 +449,9 @@ def spans(
             first = stage + 1
 
 
-def numbered(drawing: Drawing, number: str, stage: int, total: int) -> str:
+def numbered(drawing: Drawing, number: str, part: StepPart, total: int) -> str:
     """The number of a step's page within its sheet, for the title block."""
-    return drawing.words("page.sheet_step", sheet=number, number=stage + 1, all=total)
+    return drawing.words("page.sheet_step", sheet=number, number=part.number, all=total)
 
 
 def crossed(drawing: Drawing, found: Sequence[Crossing]) -> Iterator[Mark]:
@@ -444,14 +520,14 @@ def wrapped(markup: str, height: float, leading: float, y: float, at: StepLines)
 
 
 def text_block(
-    drawing: Drawing, said: Sequence[Sentence], first: int, stage: int, at: StepLines
+    drawing: Drawing, said: Sequence[Sentence], first: int, part: StepPart, at: StepLines
 ) -> Iterator[Mark]:
     """The sentences to do in large lettering, and below them the last of those that are done."""
-    words = drawing.words
+    words, stage = drawing.words, part.stage
     key, several = (
         ("page.steps_of", {"first": first + 1}) if first < stage else ("page.step_of", {})
     )
-    caption = words(key, number=stage + 1, all=len(said), **several)
+    caption = words(key, number=part.number, all=len(said), **several)
     yield Text(at.left, at.top, caption, "caption", 3.5, name="step")
     lines, height, y, _ = to_do(said, first, stage, at)
     for foot, line in lines:
@@ -470,4 +546,4 @@ def text_block(
         while shown and not shown[0][0]:
             shown = shown[1:]
         shown = [("", LEFT_OUT), *shown][:room]
-    yield from written(shown, at.left, y + 2.5, *DONE)
+    yield from written(shown, at.left, y + 2.5, DONE[1])

@@ -46,11 +46,12 @@ class Subjects(NamedTuple):
     radius: Array
     lean: Array  # preferred direction times the cost of a place perpendicular to it
     line: Mask  # the subject is a segment, not a point
+    spare: Mask  # the label has no place rather than a leader across a strong line
 
     def take(self, which: Index) -> Subjects:
         """Return a selection of the subjects."""
         ends, half, gap, radius, lean = (column[which] for column in self[:5])
-        return Subjects(ends, half, gap, radius, lean, self.line[which])
+        return Subjects(ends, half, gap, radius, lean, self.line[which], self.spare[which])
 
 
 class Tries(NamedTuple):
@@ -211,6 +212,7 @@ ROOM = 1.4  # mm of free space around a label beyond which more is no improvemen
 LEADER = np.array([6.0, 3.7])  # cost of a leader to a point and to a segment; costs are in mm
 CROSSING = 0.9  # cost of a line that a leader crosses
 STRONG = 30.0  # extra cost if that line is a link, a guide or a vector
+LONGEST = 15.0  # mm, of a leader
 SKIRT = 2.5  # cost of a line that a leader runs along
 ASTRAY = 4.0  # cost of a label FAR_OFF from its segment and nearer to another, LONG one
 FAR_OFF, LONG = 2.5, 24.0  # mm; FAR_OFF is beyond the gap
@@ -429,7 +431,11 @@ class Clearance:
         return np.asarray(crossed & (self.kind.take(shape) != BOX))
 
     def _toll(self, some: Open, leader: Array) -> Array:
-        """Return the costs of leaders that cross or follow lines; infinite at a box or point."""
+        """Return the costs of leaders that cross or follow lines.
+
+        They are infinite at a box or a point, for a leader that is too long, and where that of a
+        spare label crosses a strong line.
+        """
         columns = leader.T.copy()
         x0, y0, x1, y1 = columns
         ways = np.minimum(x0, x1), np.minimum(y0, y1), np.maximum(x0, x1), np.maximum(y0, y1)
@@ -451,7 +457,10 @@ class Clearance:
         hit = separation(solid.x, solid.y, solid.ex, solid.ey, segments(path.T)) < limit
         hit &= separation(path[2], path[3], zero, zero, solid) > limit
         toll[which.take(where(hit))] = np.inf
-        every = np.bincount(place, toll, len(leader)) + STRONG * struck(leader, self.strong)
+        crossed, spare = struck(leader, self.strong), self.subjects.spare.take(some.label)
+        every = np.bincount(place, toll, len(leader)) + STRONG * crossed
+        every[where(spare & (crossed > 0))] = np.inf
+        every[where(np.hypot(columns[2] - columns[0], columns[3] - columns[1]) > LONGEST)] = np.inf
         return np.asarray(every, dtype=np.float64)
 
     def _off(self, path: Array, shape: Index) -> Array:

@@ -16,49 +16,40 @@ from graphkin.drawing.richtext import extent
 from graphkin.text.errors import PageError, Problem, message
 from graphkin.text.tables import Row
 
-HEIGHT, SMALL = 2.5, 1.8
-"""Letter heights in mm: the preferred one and the least."""
+HEIGHT = 2.5
+"""Height of the letters in mm."""
 PAD = 1.4
 """Least horizontal padding of a cell, both sides together, in mm."""
-BETWEEN, APART = 3, 0.6
+BETWEEN, APART = 3, 0.5
 """Space between adjacent tables, in mm, and between stacked tables, in rows."""
 
 
 class Look(NamedTuple):
-    """The row height, the baseline's depth below the row's upper line (mm), and the width factor.
-
-    ``large``: this look is used only with large letters.
-    """
+    """The height of rows, the depth of their baselines in them (mm), and the width factor."""
 
     row: float
     base: float
     part: float
-    large: bool = False
+    head: float = 0.0
+    """The height of the head; 0 for that of a row."""
 
     @property
-    def letters(self) -> tuple[float, ...]:
-        """The letter heights to try."""
-        return (HEIGHT, SMALL) if self.part >= 1 else (SMALL,)
+    def top(self) -> float:
+        """The height of the head, in rows."""
+        return self.head / self.row if self.head else 1.0
 
 
-WIDENED = ((1.0, True), (1.15, True), (1.3, True), (1.0, False))
-"""Width factors to try with large letters, before small ones."""
-HIGH = (
-    *(Look(5.0, 3.55, *how) for how in WIDENED if how[1]),
-    *(Look(5.6, 3.7, *how) for how in WIDENED if how[1]),
-    Look(5.0, 3.55, 1.0),
-)
+PARTS = (1.0, 0.72, 0.5)
+"""Factors on the widths of columns, from ample space to less and less."""
+HIGH = tuple(Look(*high, part) for high in ((4.9, 3.75), (5.2, 3.75), (5.6, 3.8)) for part in PARTS)
 """Looks of tables with marks above letters, where space permits.
 
 Indices of indices fit below them in higher rows.
 """
-LOOKS = (
-    *(Look(4.7, 3.2, *how) for how in WIDENED),
-    *(Look(row, row - 1.15, 0.72) for row in (4.7, 4.2, 3.8)),
-)
+LOOKS = tuple(Look(*low, part) for low in ((4.7, 3.2), (5.3, 3.5), (4.2, 3.0)) for part in PARTS)
 """Looks of tables, from ample space to less and less."""
-BY_HAND = tuple(Look(row, row / 2 + 1.0, *how) for row in (7.0, 6.0, 5.0) for how in WIDENED)
-"""Looks of tables to be filled in by hand, where space permits."""
+BY_HAND = tuple(Look(7.0, 4.5, part, 5.0) for part in (1.45, 1.3, 1.15, 1.0))
+"""Looks of tables to be filled in by hand."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
 """A number in a cell: the part before its decimal mark, and the rest."""
 
@@ -67,8 +58,7 @@ class ColumnTable(Struct, frozen=True):
     """A table of a head and rows, with the least widths of its columns in mm.
 
     - ``among``: all rows of a table that is split into blocks, which share one look.
-    - ``beside``: the table goes next to a table of one block, and below a table of several blocks
-      where a whole row stays free.
+    - ``beside``: the table goes next to a table of one block, and below one of several blocks.
     - ``numbers``: the columns of numbers, aligned at their decimal marks.
     """
 
@@ -79,10 +69,9 @@ class ColumnTable(Struct, frozen=True):
     beside: bool = False
     numbers: tuple[int, ...] = ()
 
-    @property
-    def lines(self) -> int:
-        """The number of rows, including the head."""
-        return len(self.rows) + 1
+    def lines(self, look: Look) -> float:
+        """The height in rows of a look, including the head."""
+        return len(self.rows) + look.top
 
     def blocks(self, room: int) -> list[ColumnTable]:
         """The table split into blocks of at most ``room`` rows, which share one look."""
@@ -90,78 +79,70 @@ class ColumnTable(Struct, frozen=True):
         return [replace(self, rows=self.rows[i : i + room], among=self.rows) for i in starts]
 
     def columns(self, look: Look) -> tuple[float, ...]:
-        """The column widths: the given ones, else space shared evenly, else what the text needs."""
+        """The column widths: the given ones, else space shared evenly, else what the text needs.
+
+        Columns to write in share the space among themselves.
+        """
         given = tuple(look.part * width for width in self.widths)
-        for height in look.letters:
-            needs = self.needs(height)
-            left = (sum(given) - sum(needs)) / len(given)
-            if all(need + PAD <= width for need, width in zip(needs, given, strict=True)):
-                return given
-            if left >= PAD:
-                return tuple(need + left for need in needs)
+        needs = self.needs
+        left = (sum(given) - sum(needs)) / len(given)
+        if all(need + PAD <= width for need, width in zip(needs, given, strict=True)):
+            return given
+        if left >= PAD:
+            blank = [not any(row.cells[i] for row in self.among) for i in range(len(needs))]
+            more = (left - PAD) * len(needs) / (sum(blank) or len(needs))
+            each = zip(needs, blank, strict=True)
+            return tuple(n + PAD + (more if b or not any(blank) else 0.0) for n, b in each)
         return tuple(max(need + PAD, width) for need, width in zip(needs, given, strict=True))
 
-    def needs(self, height: float) -> list[float]:
+    @property
+    def needs(self) -> list[float]:
         """The widest text of each column in mm."""
-        return [
-            max(extent(name, SMALL)[0], self.breadth(i, height))
-            for i, name in enumerate(self.head.cells)
-        ]
+        heads = (extent(name, HEIGHT)[0] for name in self.head.cells)
+        return [max(head, self.breadth(i)) for i, head in enumerate(heads)]
 
-    def breadth(self, column: int, height: float) -> float:
+    def breadth(self, column: int) -> float:
         """The width of a column's texts in mm; numbers are aligned at their decimal marks."""
         texts = tuple(row.cells[column] for row in self.among)
-        return breadth_of(texts, height, aligned=column in self.numbers)
+        return breadth_of(texts, HEIGHT, aligned=column in self.numbers)
 
-    def marked(self, column: int, height: float) -> float:
+    def marked(self, column: int) -> float:
         """The distance in mm of the decimal marks to the left of the column's middle."""
-        sides = [around_mark(row.cells[column], height) for row in self.among]
+        sides = [around_mark(row.cells[column], HEIGHT) for row in self.among]
         return (max(b for _, b in sides) - max(a for a, _ in sides)) / 2
 
-    def lettering(self, look: Look) -> float:
-        """The letter height of the rows."""
-        return self.letters(look, self.columns(look))
-
-    def letters(self, look: Look, widths: Sequence[float]) -> float:
-        """The letter height at which every cell fits its column and its row."""
-        if look.letters[0] != HEIGHT:
-            return look.letters[0]
-        for i, width in enumerate(widths):
-            below = max(extent(row.cells[i], HEIGHT)[2] for row in self.among)
-            wide = self.breadth(i, HEIGHT) > width - PAD + 1e-9
-            if wide or below > look.row - look.base - 0.1:
-                return SMALL
-        return look.letters[0]
+    def fits(self, look: Look) -> bool:
+        """Whether all letters have their height in the rows of a look."""
+        cells = (cell for row in (self.head, *self.rows, *self.among) for cell in row.cells)
+        _, tops, lows = zip(*(extent(cell, HEIGHT) for cell in cells), strict=True)
+        return bool(-min(tops) <= look.base - 0.1 and max(lows) <= look.row - look.base - 0.1)
 
     def marks(self, x: float, y: float, look: Look) -> list[Mark]:
         """The ruled table with its top-left corner at (x, y)."""
         widths, row = self.columns(look), look.row
-        total, height = sum(widths), row * self.lines
-        marks: list[Mark] = [box(x, y, total, row, "shade")]
-        for i in range(self.lines + 1):
-            marks.append(LineMark(x, y + i * row, x + total, y + i * row, "panel"))
+        total, head, height = sum(widths), row * look.top, row * self.lines(look)
+        marks: list[Mark] = [box(x, y, total, head, "shade")]
+        for low in (y, *(y + head + i * row for i in range(len(self.rows) + 1))):
+            marks.append(LineMark(x, low, x + total, low, "panel"))
         left = x
         for width in (*widths, 0.0):
             marks.append(LineMark(left, y, left, y + height, "panel"))
             left += width
-        marks += heads(x, y + look.base, widths, self.head)
-        letters = self.letters(look, widths)
-        for i, each in enumerate(self.rows, 1):
-            marks += self.cells(x, y + i * row + look.base, widths, each, letters)
+        marks += heads(x, y + (look.base if not look.head else head / 2 + 1.25), widths, self.head)
+        for i, each in enumerate(self.rows):
+            marks += self.cells(x, y + head + i * row + look.base, widths, each)
         return marks
 
-    def cells(
-        self, x: float, baseline: float, widths: Sequence[float], row: Row, height: float
-    ) -> Iterator[Mark]:
+    def cells(self, x: float, baseline: float, widths: Sequence[float], row: Row) -> Iterator[Mark]:
         """The texts of one row: numbers aligned at their decimal marks, others centred."""
         for i, (width, markup) in enumerate(zip(widths, row.cells, strict=True)):
             middle = x + width / 2
             x += width
             if markup and i in self.numbers:
-                at = middle - self.marked(i, height) - around_mark(markup, height)[0]
-                yield Text(at, baseline, markup, "table", height, "start", row.name)
+                at = middle - self.marked(i) - around_mark(markup, HEIGHT)[0]
+                yield Text(at, baseline, markup, "table", HEIGHT, "start", row.name)
             elif markup:
-                yield Text(middle, baseline, markup, "table", height, "middle", row.name)
+                yield Text(middle, baseline, markup, "table", HEIGHT, "middle", row.name)
 
 
 @lru_cache(maxsize=256)
@@ -184,10 +165,10 @@ def around_mark(markup: str, height: float) -> tuple[float, float]:
 
 
 def heads(x: float, baseline: float, widths: Sequence[float], row: Row) -> Iterator[Mark]:
-    """The small texts of a head, each in the middle of its column."""
+    """The texts of a head, each in the middle of its column."""
     for width, markup in zip(widths, row.cells, strict=True):
         if markup:
-            yield Text(x + width / 2, baseline, markup, "table", SMALL, "middle", row.name)
+            yield Text(x + width / 2, baseline, markup, "table", HEIGHT, "middle", row.name)
         x += width
 
 
@@ -198,11 +179,11 @@ def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False
     """
     left, top, right, low = rect
     for look in looks_of(tables, by_hand=by_hand):
-        columns = in_columns(tables, (low - top) / look.row)
+        columns = in_columns(tables, look, low - top)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
         if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:
             continue
-        if look.large and any(table.lettering(look) == SMALL for c in columns for table in c):
+        if not all(table.fits(look) for table in tables):
             continue
         return [*side_by_side(columns, wide, left, top, look)]
     raise PageError(no_room(tables, right - left))
@@ -213,18 +194,17 @@ def on_sheets(
 ) -> list[list[Mark]]:
     """The tables on as many sheets as they need, each sheet with its rectangle.
 
-    Letters are the largest possible; columns to be filled in by hand are the widest. A table that
-    does not fit continues below its repeated head. Raises PageError where a table is wider than a
-    sheet.
+    A table that does not fit continues below its repeated head. Raises PageError where a table is
+    wider than a sheet.
     """
     looks = looks_of(tables, by_hand=by_hand)
-    look = max(looks, key=lambda each: each.part) if by_hand else looks[0]
+    look = next((each for each in looks if all(table.fits(each) for table in tables)), looks[-1])
     left, _, right, low = others
     sheets: list[list[Mark]] = []
     rest = list(tables)
     while rest:
         top = others[1] if sheets else first[1]
-        columns = in_columns(rest, (low - top) / look.row)
+        columns = in_columns(rest, look, low - top)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
         ends = [sum(wide[: n + 1]) + BETWEEN * n for n in range(len(wide))]
         held = sum(end <= right - left + 1e-9 for end in ends)
@@ -247,9 +227,9 @@ def rejoined(blocks: Iterable[ColumnTable]) -> list[ColumnTable]:
 
 
 def looks_of(tables: Sequence[ColumnTable], *, by_hand: bool) -> tuple[Look, ...]:
-    """The looks to try, the preferred first; ``by_hand`` puts looks with space to write first."""
+    """The looks to try, the preferred first; those ``by_hand`` have space to write."""
     raised = any("^" in row.cells[0] for table in tables for row in table.rows)
-    return (*(BY_HAND if by_hand else ()), *(HIGH if raised else ()), *LOOKS)
+    return BY_HAND if by_hand else (*(HIGH if raised else ()), *LOOKS)
 
 
 def side_by_side(
@@ -264,19 +244,19 @@ def side_by_side(
         x, y = left + sum(wide[:nth]) + BETWEEN * nth, top
         for table in column:
             yield from table.marks(x, y, look)
-            y += (table.lines + APART) * look.row
+            y += (table.lines(look) + APART) * look.row
 
 
-def in_columns(tables: Sequence[ColumnTable], lines: float) -> list[list[ColumnTable]]:
-    """The tables arranged in columns of ``lines`` lines; long tables are split into blocks."""
+def in_columns(tables: Sequence[ColumnTable], look: Look, height: float) -> list[list[ColumnTable]]:
+    """The tables arranged in columns of a height in mm; long tables are split into blocks."""
     columns: list[list[ColumnTable]] = []
+    lines = height / look.row + 1e-9
     for table in tables:
-        room = lines - (1 - APART if table.beside else 0)
-        for block in table.blocks(max(int(lines) - 1, 1)):
+        for block in table.blocks(max(int(lines - look.top), 1)):
             free = (
                 column
                 for column in reversed([] if table.beside and len(columns) == 1 else columns)
-                if sum(above.lines + APART for above in column) + block.lines <= room
+                if sum(above.lines(look) + APART for above in column) + block.lines(look) <= lines
             )
             column = next(free, None)
             if column is None:
@@ -289,7 +269,7 @@ def in_columns(tables: Sequence[ColumnTable], lines: float) -> list[list[ColumnT
 def no_room(tables: Sequence[ColumnTable], width: float) -> Problem:
     """The problem of tables that are too large: a name is too long, or there are too many rows."""
     widest, name = max(
-        (extent(row.cells[i], SMALL)[0], row.name)
+        (extent(row.cells[i], HEIGHT)[0], row.name)
         for table in tables
         for row in table.rows
         for i in range(len(row.cells) - 2)

@@ -19,6 +19,30 @@ A4_FRAME: Rect = (20.0, 10.0, 200.0, 287.0)
 A4_AREA: Rect = (20.0, 18.0, 200.0, 279.0)
 """The area between header and footer of an A4 page."""
 
+
+class TextPage(Struct, frozen=True):
+    """A page of text: its size, and how it differs from an A4 page, all in mm.
+
+    The text has the width of that on A4, ``aside`` of it so that it is in the middle; its foot is
+    ``shorter`` than that of A4.
+    """
+
+    name: str
+    size: XY
+    aside: float = 0.0
+    shorter: float = 0.0
+
+
+A4_PAGE = TextPage("A4", A4_SIZE)
+LETTER = TextPage("Letter", (215.9, 279.4), (215.9 - 210.0) / 2, 297.0 - 279.4)
+"""The page of ASME Y14.1 size A, upright."""
+
+
+def text_page(paper: str) -> TextPage:
+    """The page of text beside a paper of sheets: Letter beside those of ANSI, else A4."""
+    return LETTER if paper in ASME else A4_PAGE
+
+
 MARGIN = 15.0
 """Space left and right of a drawing for symbols, ends of lines and labels, in mm."""
 ABOVE = 8.5
@@ -201,17 +225,12 @@ class SheetPaper(Struct, frozen=True, dict=True):
     def tables(self) -> Rect:
         """The table above the title block."""
         left = self.right[0] if self.is_leaf else self.fields[2] - self.frame.tables
-        return left, self.foot + 2, self.fields[2], self.title_block[1] - 2
+        return left, self.foot + 1, self.fields[2], self.title_block[1] - 1
 
     @cached_property
     def writing(self) -> float:
         """The right end of sentences and requests below the drawings: beside the tables."""
         return self.left[2] if self.is_leaf else self.tables[0] - 3
-
-    @property
-    def smallest(self) -> float:
-        """The least height of letters of sentences; only on A3 are they smaller than 2.5 mm."""
-        return 1.8 if self.name == USUAL_PAPER else 2.5
 
     @cached_property
     def marked(self) -> tuple[float, float]:
@@ -235,9 +254,12 @@ class SheetPaper(Struct, frozen=True, dict=True):
 
     @cached_property
     def empty_tables(self) -> Rect:
-        """The tables of a task; on a leaf they leave room for the square with the code."""
+        """The tables of a task, close to the lines around them: their rows are as high as possible.
+
+        On a leaf they leave room for the square with the code.
+        """
         left, top, right, low = self.tables
-        return left, top, right - (CODE if self.is_leaf else 0), low
+        return left, top - 0.5, right - (CODE if self.is_leaf else 0), low + 0.5
 
     @cached_property
     def title(self) -> float:

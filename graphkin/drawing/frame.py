@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from math import floor
@@ -10,8 +10,19 @@ from math import floor
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.drawing.field import A3, A4_AREA, A4_FRAME, GOST, ISO, Rect, SheetFrame, SheetPaper
-from graphkin.drawing.marks import LineMark, Mark, Text, box
+from graphkin.drawing.field import (
+    A3,
+    A4_AREA,
+    A4_FRAME,
+    A4_PAGE,
+    GOST,
+    ISO,
+    Rect,
+    SheetFrame,
+    SheetPaper,
+    TextPage,
+)
+from graphkin.drawing.marks import LineMark, Mark, Page, Text, box, moved
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
 from graphkin.text.errors import PageError, Problem, message
@@ -20,7 +31,7 @@ BAND, FIELD = 5.0, 50.0  # grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # without I and O
 LEADING, CLOSER = 1.7, 1.5  # line spacing in heights of capitals, and that of a header
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
-LABEL, UNDER = 2.9, 2.0  # a cell's baselines: label below the top, value above the bottom
+LABEL, UNDER = 3.4, 1.7  # a cell's baselines: label below the top, value above the bottom
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
@@ -314,7 +325,7 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
     x, room = left + 1.5, right - left - 3
     marks: list[Mark] = []
     if label:
-        (line,), height = fitting(f"label of {name}", label, room, 1.8, 1.8)
+        (line,), height = fitting(f"label of {name}", label, room + 1, 2.5, 2.5)
         marks.append(Text(x, top + LABEL, line, "title", height))
     if value.strip():
         lines, height = fitting(name, value, *room_in(rect), most)
@@ -448,7 +459,7 @@ def check_bar(x: float, y: float) -> tuple[Mark, ...]:
         tick = 4.0 if i % 10 == 0 else 3.0 if i % 5 == 0 else 2.0
         marks.append(LineMark(x + i, y, x + i, y - tick, "check-bar"))
     for i in range(0, 101, 10):
-        marks.append(Text(x + i, y + 3.0, str(i), "check-bar", 1.8, "middle"))
+        marks.append(Text(x + i, y + 3.6, str(i), "check-bar", 2.5, "middle"))
     return tuple(marks)
 
 
@@ -456,14 +467,17 @@ def page_frame(
     header: tuple[str, str] = ("", ""),
     footer: tuple[str, str] = ("", ""),
     school: Sequence[str] = (),
+    page: TextPage = A4_PAGE,
 ) -> tuple[Mark, ...]:
-    """Draw an A4 portrait page's frame, with a line (left, right; markup) at its head and foot.
+    """Draw a portrait page's frame, with a line (left, right; markup) at its head and foot.
 
-    The lines of a school's header, in plain text, are above the frame.
+    The lines of a school's header, in plain text, are above the frame. All is in the place that it
+    has on A4, but for the foot; ``on_page`` moves it to the middle.
     """
-    left, _, right, bottom = A4_FRAME
-    head, foot = A4_AREA[1], A4_AREA[3]
-    marks: list[Mark] = [edged(A4_FRAME, "frame")]
+    left, top, right, bottom = A4_FRAME
+    bottom -= page.shorter
+    head, foot = A4_AREA[1], A4_AREA[3] - page.shorter
+    marks: list[Mark] = [edged((left, top, right, bottom), "frame")]
     marks += (LineMark(left, y, right, y, "border") for y in (head, foot))
     marks += ends(head - 2.9, header, "header")
     marks += ends(bottom - 2.9, footer, "footer")
@@ -473,6 +487,16 @@ def page_frame(
         line = joined if wide else escape(school[0])
         marks.append(Text(left, A4_FRAME[1] - 2, line, "title", 2.5, name="school"))
     return tuple(marks)
+
+
+def on_page(
+    page: TextPage, marks: Iterable[Mark], title: str, language: str, weight: float = 1.0
+) -> Page:
+    """A page of text with its marks, which are at their places on A4, in its middle. Checks it."""
+    placed = tuple(moved(mark, page.aside, 0) if page.aside else mark for mark in marks)
+    made = Page(*page.size, placed, title, language, weight=weight)
+    made.check()
+    return made
 
 
 def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:

@@ -14,7 +14,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.drawing import shapes
-from graphkin.drawing.clearance import pieces_of
+from graphkin.drawing.clearance import LONGEST, pieces_of
 from graphkin.drawing.field import XY, Rect, clipped
 from graphkin.drawing.marks import (
     CircleMark,
@@ -48,8 +48,8 @@ class Label(Struct, frozen=True):
     """A text to be placed at a subject.
 
     - ``ring`` puts the text into a circle (a link's number); ``led`` always gives it a leader.
-    - ``spare`` labels may be left out in a crowd, because the construction and the tables name
-      them, too.
+    - ``spare`` labels are left out where only a leader across a strong line would reach them,
+      because the construction and the tables name them, too.
     - ``optional`` labels are drawn only where there is a place for them at once.
     - ``letters`` are the letters of the points of a plan that the label names.
     - ``shows`` is the part of a link that no step draws.
@@ -105,9 +105,8 @@ class Label(Struct, frozen=True):
         """The box that the label needs, with its preferred place."""
         gap = LED if self.led else GAP
         width, height = self.size()
-        return Wish(
-            width, height, self.subject, self.away, self.priority, gap, self.radius, self.optional
-        )
+        own = self.subject, self.away, self.priority, gap, self.radius, self.optional, self.spare
+        return Wish(width, height, *own)
 
     def marks(self, spot: Spot) -> Iterable[Mark]:
         """The label at its place, with its leader or circle."""
@@ -187,7 +186,10 @@ LEAST = MARGIN + CLEAR - 0.1
 def with_leaders(
     labels: Sequence[Label], spots: Sequence[Spot], marks: Sequence[Mark]
 ) -> list[Spot]:
-    """The places of labels, with a leader for each ambiguous label that can have one."""
+    """The places of labels, with a leader for each ambiguous label that can have one.
+
+    A spare one whose leader would cross a strong line has no free place.
+    """
     found = list(spots)
     doubtful = [*doubtful_ones(labels, spots, marks), *doubtful_letters(labels, spots)]
     if not doubtful:
@@ -195,10 +197,14 @@ def with_leaders(
     areas = [label.area(spot) for label, spot in zip(labels, spots, strict=True)]
     strong = strong_lines(marks)
     for i in doubtful:
-        leaders = [*leaders_to(labels[i], spots[i])]
+        leaders = [each for each in leaders_to(labels[i], spots[i]) if dist(*each) <= LONGEST]
+        if not leaders:
+            continue
         crossed = struck(np.array(leaders).reshape(-1, 4), strong)
         leader = leaders[int(crossed.argmin())]
-        if not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
+        if labels[i].spare and crossed.min():
+            found[i] = replace(spots[i], free=False)
+        elif not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
             found[i] = replace(spots[i], leader=leader)
     return found
 
@@ -351,7 +357,8 @@ class FieldContent(Struct):
     - ``crowds`` are places where so much meets that they are shown enlarged.
     - ``dispensable`` labels are drawn where the others leave room nearby.
     - ``detailed`` fields may have details, which show their short vectors enlarged.
-    - ``unplaced`` are letters and numbers of a finished field that only its foot notes.
+    - ``unplaced`` are letters and numbers of a finished field that only its foot notes, and
+      ``left_out`` the names of vectors.
     """
 
     rect: Rect
@@ -364,6 +371,7 @@ class FieldContent(Struct):
     crowds: list[XY] = field(default_factory=list)
     dispensable: list[Label] = field(default_factory=list)
     unplaced: list[Label] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
     detailed: bool = True
 
     @property
@@ -392,9 +400,11 @@ class FieldContent(Struct):
         key numbers would not help either.
         """
         meanings: list[FootNote] = []
-        wished = list(self.labels)
         foot = made[0] if made else self.footed(self.notes)
         spots = made[1] if made else self.spots(foot)
+        while lost := self.lost(spots):
+            foot, spots = self.without_spare(lost, spots)
+        wished = list(self.labels)
         for rounds_left in reversed(range(ROUNDS)):
             before = list(self.labels)
             if sum(not spot.free for spot in spots) > HOPELESS:
@@ -413,8 +423,8 @@ class FieldContent(Struct):
                     foot, spots = by_need(self, wished, meanings)
                 break
             self.shorten([spot.free for spot in spots], meanings)
-            foot = self.footed([*self.notes, *meanings])
-            if len(note_lines([*self.notes, *meanings], self.across)) > self.most_notes:
+            foot = self.footed([*self.footnotes, *meanings])
+            if len(note_lines([*self.footnotes, *meanings], self.across)) > self.most_notes:
                 self.labels = wished
                 foot, spots = in_turn(self, self.notes, wished)
                 break
@@ -429,6 +439,34 @@ class FieldContent(Struct):
         some = [replace(label, optional=True) for label in self.dispensable]
         both = zip(some, self.spots(named, some), strict=True)
         return [mark for label, spot in both if spot.free for mark in label.marks(spot)]
+
+    @property
+    def footnotes(self) -> list[FootNote]:
+        """The notes at its foot, the last one that of the vectors without a name."""
+        return [*self.notes, *self.nameless(())]
+
+    def nameless(self, more: Iterable[str]) -> Iterator[FootNote]:
+        """The note of the vectors left without a name, and of some more; none without any."""
+        if names := ", ".join(dict.fromkeys([*self.left_out, *more])):
+            yield FootNote(f"{self.unnamed} {names}")
+
+    def lost(self, spots: Sequence[Spot]) -> list[int]:
+        """The spare labels without a place, or that only a leader across a strong line tells."""
+        if not any(label.spare for label in self.labels):
+            return []
+        led = with_leaders(self.labels, spots, self.marks)
+        return [i for i, spot in enumerate(led) if self.labels[i].spare and not spot.free]
+
+    def without_spare(
+        self, lost: Sequence[int], spots: Sequence[Spot]
+    ) -> tuple[list[Mark], list[Spot]]:
+        """Leave out some spare labels and note them; the field's foot and the others' places."""
+        self.left_out += [self.labels[i].markup for i in lost]
+        kept = [i for i in range(len(spots)) if i not in lost]
+        self.labels = [self.labels[i] for i in kept]
+        foot = self.footed(self.footnotes)
+        others = [spots[i] for i in kept]
+        return foot, self.spots_of_new(foot, self.labels, others) or self.spots(foot)
 
     def without_helpers(self, spots: Sequence[Spot]) -> list[Spot]:
         """Leave out construction letters without a place; the rest is drawn."""
@@ -649,10 +687,10 @@ def in_turn(
     first = [i for i, label in enumerate(labels) if must_be_named(label)]
     left_out: list[int] = []
     while True:
-        names = ", ".join(dict.fromkeys((noted or labels)[i].markup for i in left_out))
         unused = {labels[i].markup for i in left_out} if noted else set[str]()
         said = [note for note in notes if note.of not in unused]
-        foot = board.footed([*said, *([FootNote(f"{board.unnamed} {names}")] if names else [])])
+        names = [(noted or labels)[i].markup for i in left_out]
+        foot = board.footed([*said, *board.nameless(names)])
         found: dict[int, Spot] = {}
         wanted = [[i for i in which if i not in left_out] for which in (first, vectors)]
         for which in (*wanted, helpers):

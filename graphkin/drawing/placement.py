@@ -19,7 +19,7 @@ from graphkin.drawing.shapes import NOWHERE, Box, Index, where
 NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader
 MOST = 12_000  # most places offered on a page: the memory needed grows with their square
 AT_ONCE = 64  # labels whose wider search is done at once
-FAR = np.array([4.0, 7.0, 11.0, 17.0, 24.0, 33.0])  # mm beyond the gap, with a leader
+FAR = np.array([4.0, 7.0, 10.5, 14.0])  # mm beyond the gap, with a leader
 
 
 class Level(NamedTuple):
@@ -287,6 +287,7 @@ class Wish(Struct, frozen=True):
     gap: float = 1.0  # free distance to the subject
     radius: float = 0.0  # of the circle that marks a point subject
     optional: bool = False  # may stay without a place
+    spare: bool = False  # stays without a place rather than with a leader across a strong line
 
 
 class Spot(Struct, frozen=True):
@@ -338,7 +339,8 @@ def _subjects(wishes: Sequence[Wish]) -> Subjects:
         (SIDE * w.away[0], SIDE * w.away[1]) if w.away else (0.0 if seg else 0.15, -0.2)
         for w, seg in zip(wishes, line, strict=True)
     ]
-    return Subjects(ends, sizes[:, :2], sizes[:, 2], sizes[:, 3], np.array(lean), line)
+    spare = np.array([w.spare for w in wishes], dtype=np.bool_)
+    return Subjects(ends, sizes[:, :2], sizes[:, 2], sizes[:, 3], np.array(lean), line, spare)
 
 
 def _widen(seats: Assignment) -> None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
-from itertools import takewhile
+from itertools import islice, takewhile
 from math import floor, hypot, isclose, log10
 
 from msgspec import Struct
@@ -19,11 +19,8 @@ from graphkin.numbers.arithmetic import Point, Real, larger, smaller
 
 STEPS = (1.0, 2.0, 5.0)
 """First digits of preferred numbers."""
-ENLARGED, REDUCED = (1.0, 2.0, 2.5, 4.0, 5.0), (1.0, 1.5, 2.0, 2.5, 4.0, 5.0, 7.5)
-"""First digits of kL for scales above 2:1 and from there on: ISO 5455, GOST 2.302, and 4:3."""
-
-TWICE = 0.5
-"""kL of a drawing twice as large as its mechanism."""
+DIGITS = (1.0, 2.0, 2.5, 4.0, 5.0)
+"""First digits of kL of the preferred scales: those of ISO 5455, and 2.5 and 4 of GOST 2.302."""
 
 
 class Scales(Struct, frozen=True):
@@ -96,6 +93,11 @@ def ratio(kL: float) -> str:
         if isclose(whole * kL, 1)
         else f"{digits(1 / kL)}:1"
     )
+
+
+def is_standard(kL: float) -> bool:
+    """Whether ISO 5455 has a scale: 1, 2 or 5 times a power of ten, reduced or enlarged."""
+    return any(isclose(number, kL) for number in islice(preferred(kL * (1 - 1e-9)), 1))
 
 
 def digits(number: float) -> str:
@@ -174,8 +176,7 @@ def preferred_scales(smallest: float, steps: Sequence[float] = ()) -> Iterator[f
         yield from takewhile(lambda kL: kL < 1 - 1e-9, preferred(smallest, enlarged))
         yield from preferred(max(smallest, 1.0), sorted(steps))
         return
-    yield from takewhile(lambda kL: kL < TWICE, preferred(smallest, ENLARGED))
-    yield from preferred(max(smallest, TWICE), REDUCED)
+    yield from preferred(smallest, DIGITS)
 
 
 def preferred(smallest: float, digits: Sequence[float] = STEPS) -> Iterator[float]:

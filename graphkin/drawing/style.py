@@ -101,6 +101,10 @@ VECTORS = (*MOTIONS, *FORCES)
 """The classes of lines that are vectors."""
 DRAWN = ("construction", "ray", "compass", *AUXILIARY, "centre", "inflection", "ordinate", *MOTIONS)
 """The classes of lines that a construction draws."""
+CURVES = ("curve", "curve-dashed", "curve-dotted", "curve-chain")
+"""The classes of the lines of curves by stroke; a hue gives their colour."""
+HUES = tuple(f"hue-{i}" for i in range(1, 9))
+"""The classes that give curves their colours, in order; the last is the ink."""
 CENTRODES = {"fixed-centrode": "relative-velocity", "moving-centrode": "coriolis"}
 """The classes whose colours the names of centrodes take."""
 
@@ -171,6 +175,22 @@ STYLES: dict[str, Style] = {
     "reaction": Style(0.5, BROWN),
     "reaction-part": Style(0.35, BROWN, SHORT_CHAIN),
     "balance": Style(0.5, BROWN, DOTTED),
+    # charts
+    **{
+        name: Style(0.4, NEXT, dash, round=not dash)
+        for name, dash in zip(CURVES, ((), DASHED, DOTTED, SHORT_CHAIN), strict=True)
+    },
+    **{
+        name: Style(0, colour)
+        for name, colour in zip(
+            HUES, (BLUE, RED, GREEN, PURPLE, BROWN, TEAL, GREY, BLACK), strict=True
+        )
+    },
+    "grid": Style(0.25, LIGHT),
+    "scale-line": Style(0.18, GREY),
+    "dot": Style(0, NEXT, fill="ink"),
+    "limit": Style(0.25, RED, DASHED),
+    "here": Style(0.25, GREY, DOTTED),
     # drawings given back
     "right": Style(0.5, GREEN, fill="ink"),
     "wrong": Style(0.5, RED, fill="ink"),

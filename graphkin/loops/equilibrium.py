@@ -19,9 +19,11 @@ from msgspec.structs import replace
 from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
+from graphkin.numbers.plane import Line
 from graphkin.scene.forces import ByDriver, Directed, Forces, Size
 from graphkin.scene.model import FRAME, Driver, Scene, joined_words
-from graphkin.structure.pairs import contacts
+from graphkin.structure.link_axes import body
+from graphkin.structure.pairs import Contact, contacts
 from graphkin.structure.touching_wheels import radius, track_line
 from graphkin.text.errors import Problem, StructureError, joined, message
 
@@ -41,7 +43,8 @@ class Equilibrium(Struct, frozen=True):
     """Forces by pair and link, and by driver, from all equations at once.
 
     ``pairs`` holds for each (name, link) the force and its moment about the pin or the block's
-    first point. ``drivers`` holds forces along guides as vectors, and moments as numbers, by link.
+    first point. ``drivers`` holds forces along guides as vectors, and moments as numbers, by the
+    names of drivers.
     ``size`` (m) is the longest length, by which moments are compared with forces.
     """
 
@@ -141,14 +144,17 @@ def number_here(scene: Scene, size: Size) -> float:
 
 
 class Column(Struct, frozen=True):
-    """One unknown of a pair or driver: a unit force at a place or a unit couple, on two links."""
+    """One unknown of a pair or driver: a unit force at a place or a unit couple, on two links.
+
+    ``drives`` is the name of the driver.
+    """
 
     name: str
     links: tuple[str, str]
     place: complex
     force: complex
     couple: float
-    drives: bool = False
+    drives: str = ""
 
 
 def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
@@ -169,13 +175,14 @@ def columns_of(scene: Scene, motion: Motion) -> Iterator[Column]:
         yield Column(name, ends, pin_of(motion, guide.point), way, 0.0)
         yield Column(name, ends, 0j, 0j, 1.0)
     for driver in scene.drivers:
-        name, ends = f"driver {driver.link}", (driver.link, driver.against)
+        moved, ends = scene.driver_name(driver), (driver.link, driver.against)
+        name = f"driver {moved}"
         if driver.kind == "turn":
-            yield Column(name, ends, 0j, 0j, 1.0, drives=True)
+            yield Column(name, ends, 0j, 0j, 1.0, drives=moved)
             continue
         number = guide_of(motion, driver)
         place = pin_of(motion, motion.loops.guides[number].point)
-        yield Column(name, ends, place, along_guide(motion, number), 0.0, drives=True)
+        yield Column(name, ends, place, along_guide(motion, number), 0.0, drives=moved)
 
 
 class Touching(Struct, frozen=True):
@@ -212,9 +219,10 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
             raise StructureError(Problem("loads", found, message("wheels that touch"), hint))
         centre, track = pin_of(motion, each.wheel.centre), each.track
         if track is None:
-            line, k = track_line(scene, each.rolling), motion.index[each.links[1]]
-            away = 1j * complex(motion.heading[0, k]) * line.along * each.rolling.side
-            place = centre - radius(scene, each.wheel) * away / abs(away)
+            line = line_of(scene, motion, each)
+            start, way = line.point, line.along
+            place = start + ((centre - start) * way.conjugate()).real * way
+            away = centre - place
         else:
             other = pin_of(motion, track.centre)
             to_wheel = (centre - other) / abs(centre - other)
@@ -225,6 +233,16 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
         name, pressure = "-".join(each.links), PRESSURE if teeth else 0.0
         kept = each.arm is not None
         yield Touching(name, each.links, place, 1j * away, away, kept, pressure)
+
+
+def line_of(scene: Scene, motion: Motion, contact: Contact) -> Line:
+    """The straight track of a contact in the plane."""
+    on = contact.links[1]
+    line, turned = track_line(scene, contact.rolling), complex(motion.heading[0, motion.index[on]])
+    point = next(iter(scene.link(on).points), None)
+    shift = line.point if point is None else line.point - body(scene, on)[point]
+    start = complex(motion.origin.place[0, motion.index[on]])
+    return Line(start + turned * shift, turned * line.along)
 
 
 def cams_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
@@ -389,7 +407,7 @@ def gathered(columns: list[Column], values: list[float], size: float) -> Equilib
         couple = float(value) * column.couple * size
         if column.drives:
             is_force = column.force != 0
-            drivers[column.links[0]] = complex(value * column.force) if is_force else couple + 0j
+            drivers[column.drives] = complex(value * column.force) if is_force else couple + 0j
             continue
         for link, sign in zip(column.links, (1, -1), strict=True):
             force, turned = pairs.get((column.name, link), (0j, 0.0))
@@ -413,7 +431,7 @@ def power(
         omega = float(motion.omega[0, motion.index[each.link]])
         terms += [(each.force.conjugate() * each.velocity).real, each.couple * omega]
     for driver in scene.drivers:
-        given = drivers[driver.link]
+        given = drivers[scene.driver_name(driver)]
         if driver.kind == "turn":
             one, other = (motion.omega[0, motion.index[e]] for e in (driver.link, driver.against))
             terms.append(complex(given).real * float(one - other))
@@ -446,12 +464,12 @@ def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSoluti
         place, normal = pin_of(motion, guide.point), moment(along, force)
         at = place + turned / normal * along if normal else None
         reactions.append(PairReaction(name, link, force, turned, at, guide.block))
-    balance = [
-        Balance(driver.link, moment=here.drivers[driver.link].real)
-        if driver.kind == "turn"
-        else Balance(driver.link, force=here.drivers[driver.link])
-        for driver in scene.drivers
-    ]
+    balance = []
+    for driver in scene.drivers:
+        name = scene.driver_name(driver)
+        given = here.drivers[name]
+        turns = driver.kind == "turn"
+        balance.append(Balance(name, moment=given.real) if turns else Balance(name, force=given))
     return ForceSolution(tuple(reactions), tuple(balance))
 
 

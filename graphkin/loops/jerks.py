@@ -12,13 +12,36 @@ from graphkin.loops.equations import Equations, Lift
 from graphkin.loops.newton import LoopSolution, linear_solve
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import RateBounds, led, loads, straight, touching
+from graphkin.scene.link_points import ends_of
 
 
 class Jerks(Struct, frozen=True, eq=False):
-    """The jerks of all points (N, points), m/s³, with the bounds of their errors."""
+    """The jerks of all points (N, points), m/s³, with the bounds of their errors.
 
+    ``origin`` (N, links) are those of the links' origins, ``swing`` the factors that an arm takes.
+    """
+
+    solved: LoopSolution
     found: Complexes
+    origin: Complexes
+    swing: Complexes
     bound: Reals
+    origin_bound: Reals
+    swing_bound: Reals
+
+    def point(self, name: str) -> tuple[Complexes, Reals]:
+        """The jerk of a point with its bound, (N,); ``A@3`` is the point of link 3 under A."""
+        motion, bounds = self.solved.motion, self.solved.rounding
+        point, carrier = ends_of(name)
+        p = motion.names[point]
+        if not carrier:
+            return self.found[:, p], self.bound[:, p]
+        i = motion.index[carrier]
+        arm = motion.points.place[:, p] - motion.origin.place[:, i]
+        off = bounds.points.place[:, p] + bounds.origin.place[:, i]
+        swing, more = self.swing[:, i], self.swing_bound[:, i]
+        bound = self.origin_bound[:, i] + off * abs(swing) + (abs(arm) + off) * more
+        return self.origin[:, i] + swing * arm, bound
 
 
 def jerks(solved: LoopSolution) -> Jerks:
@@ -38,17 +61,20 @@ def jerks(solved: LoopSolution) -> Jerks:
         ]
         origin += 3 * chains.second(linear, rates, seconds) + chains.third(linear, rates)
         motion, (owners, arms) = solved.motion, loops.owners
-        omega, epsilon = motion.omega[:, owners], motion.epsilon[:, owners]
-        twist = spin[:, loops.turning_of_link][:, owners]
-        swing = 1j * twist - 3 * omega * epsilon - 1j * omega**3
-        found = origin[:, owners] + swing * motion.heading[:, owners] * arms
-        return Jerks(found, bounds(solved, rates, seconds, thirds, jacobian))
+        twist = spin[:, loops.turning_of_link]
+        swing = 1j * twist - 3 * motion.omega * motion.epsilon - 1j * motion.omega**3
+        found = origin[:, owners] + swing[:, owners] * motion.heading[:, owners] * arms
+        own = bounds(solved, rates, seconds, thirds, jacobian)
+        return Jerks(solved, found, origin, swing, *own)
 
 
 def bounds(
     solved: LoopSolution, rates: Reals, seconds: Reals, thirds: Reals, jacobian: Reals
-) -> Reals:
-    """The bounds of the jerks of all points, as those of accelerations are found: (N, points)."""
+) -> tuple[Reals, Reals, Reals]:
+    """The bounds of the jerks of all points and origins, and of what swings their arms.
+
+    They are found as those of accelerations are: (N, points) and twice (N, links).
+    """
     loops, unknowns = solved.loops, solved.unknowns
     found = RateBounds.of(solved.motion, unknowns, rates, seconds, jacobian)
     rows, places = found.position.rows, found.position.places
@@ -63,8 +89,13 @@ def bounds(
     for lift in loops.drives.lifts:
         linear[:, first + lift.row] += lifted(lift, found, unknowns, rates, seconds, thirds)
     linear[:, first:] += loops.drives.errors[3]
-    jerk = jerk + found.longer.sum(loads(led(loops, found.position.inverse, jerk, linear)))
-    return jerk[:, points_from(loops) :]
+    latest = loads(led(loops, found.position.inverse, jerk, linear))
+    jerk = jerk + found.longer.sum(latest)
+    motion, missed = solved.motion, solved.rounding
+    omega, epsilon = abs(motion.omega), abs(motion.epsilon)
+    swing = latest[:, loops.turning_of_link] + (omega + missed.omega) ** 3 - omega**3
+    swing += 3 * (omega * missed.epsilon + epsilon * missed.omega + missed.omega * missed.epsilon)
+    return jerk[:, points_from(loops) :], jerk[:, : len(loops.links)], swing
 
 
 def points_from(loops: Equations) -> int:

@@ -341,7 +341,7 @@ def gears_of(
             gear = touching(link.name, rolling, kept, bodies, numbers) if kept else None
             if gear is None:
                 gear = replace(
-                    pair(scene, link.name, rolling, 0, 0, numbers),
+                    pair(scene, link.name, rolling, *(rolling.wheels or (0, 0)), numbers),
                     arm=f"{link.name}~{rolling.on}",
                 )
                 first, second = (wheel.centre for wheel in gear.wheels)
@@ -368,7 +368,7 @@ def carried_pairs(
     found = []
     for i in range(len(scene.link(name).wheels)):
         for k in range(len(scene.link(rolling.on).wheels)):
-            if rolling.belt is not None and (i, k) != rolling.belt.wheels:
+            if rolling.wheels is not None and (i, k) != rolling.wheels:
                 continue
             gear = pair(scene, name, rolling, i, k, numbers)
             centres = {wheel.centre for wheel in gear.wheels}

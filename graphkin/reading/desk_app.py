@@ -33,9 +33,10 @@ HERE = Path(__file__).parent / "web"
 MOST_BYTES = 16 * 1024
 SAID = (
     "title", "open", "none_open", "point", "verdict", "off", "note", "right", "follows", "wrong",
-    "missing", "unread", "next", "undo", "key", "flicker", "by_keys", "refused", "saved", "failed",
-    "sheets", "help", "pin", "pins", "rivals", "reason", "points", "reading", "remark", "decided",
-    "disagree", "marks_by_keys", "pin_help", "to_decide", *(f"kind_{kind}" for kind in KINDS),
+    "missing", "unread", "next", "undo", "key", "flicker", "by_keys", "refused", "saved",
+    "failed", "gone", "sheets", "help", "pin", "pins", "rivals", "reason", "points", "reading",
+    "remark", "decided", "disagree", "marks_by_keys", "pin_help", "to_decide",
+    *(f"kind_{kind}" for kind in KINDS),
 )  # fmt: skip
 """The sentences of the page."""
 

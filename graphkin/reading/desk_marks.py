@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import OPEN, read_answer
 from graphkin.classroom.grading.appeals import Appeal, read_appeals
-from graphkin.classroom.grading.decisions import AMOUNT, LONGEST
+from graphkin.classroom.grading.decisions import AMOUNT, LONGEST, with_decisions
 from graphkin.classroom.grading.desk_rulings import (
     AnyRuling,
     DeskAct,
@@ -32,7 +32,7 @@ from graphkin.classroom.grading.feedback import (
     points_words,
     row_of,
 )
-from graphkin.classroom.grading.graded import Decision, EarnedMark
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
 from graphkin.classroom.grading.kept_marks import KeptReport
 from graphkin.classroom.roster.student_signs import signs
 from graphkin.reading.desk_queue import DeskItem, DeskQueue
@@ -168,8 +168,9 @@ class MarkDesk(Struct, dict=True):
             "title": item.title,
             "state": self.state(item),
             "told": item.reason,
+            "sums": self.sums(item),
             "causes": self.causes(item),
-            "heads": [words(HEADS[each]) for each in COLUMNS],
+            "heads": [words((HEADS | {"yours": "desk.answer"})[each]) for each in COLUMNS],
             "rows": [self.row(place) for place in item.shown],
             "choices": [each.said for each in item.choices],
             "reads": item.own if item.kind == "cell" and item.own else None,
@@ -205,6 +206,39 @@ class MarkDesk(Struct, dict=True):
             "table": marked_up(decision_words(table, self.words)) if table is not None else "",
             "remark": remark.what.text if remark is not None else "",
         }
+
+    def sums(self, item: DeskItem) -> list[str]:
+        """What each student of an item earns on the whole form, with what the desk decided."""
+        if item.kind not in ("appeal", "suspects", "sheet"):
+            return []
+        found = []
+        for who in dict.fromkeys(who for who, _ in item.places):
+            graded = self.ruled(who)
+            earned, most = (points_words(p, self.words) for p in (graded.earned, graded.points))
+            said: str = self.words("desk.sum", points=earned, most=most)
+            cost = graded.cost if graded.decision is None or graded.decision.points is None else 0
+            if cost:
+                also = self.words("desk.deducted", points=points_words(graded.cost, self.words))
+                said = f"{said}, {also}"
+            found.append(f"{self.queue.names[who]}: {said}" if len(item.places) > 1 else said)
+        return found
+
+    def ruled(self, who: str) -> Graded:
+        """A student's marks with what counts at present of the table and the desk."""
+        graded = found_only(self.queue.graded[who])
+        places = [(who, mark.item.field) for mark in graded.marks] + [(who, "")]
+        decisions = [d for place in places if (d := self.decision(place)) is not None]
+        return with_decisions(graded, decisions)
+
+    def decision(self, place: Place) -> Decision | None:
+        """What counts about a place: the table's decision, else the desk's if people agree."""
+        table = self.of_table(place)
+        said = self.rulings.about(SetPoints, place)
+        if len(said) != 1 or (table is not None and not table.is_open):
+            return table
+        ruling = said[0].what
+        points = ruling.points if isinstance(ruling, SetPoints) else None
+        return Decision(*place, points, getattr(ruling, "reason", ""), at_desk=True)
 
     def causes(self, item: DeskItem) -> list[str]:
         """The causes that explain the sheets of an appeal, as browser markup."""
@@ -296,7 +330,7 @@ class MarkDesk(Struct, dict=True):
         places = {each.place for each in last[1].rulings}
         self.rulings.add(DeskAct(by=self.marker, undo=True))
         exact = (n for n, each in self.items().items() if places == {*each.places})
-        near = (n for n, each in self.items().items() if places <= {*each.places, *each.shown})
+        near = (n for n, each in self.items().items() if places & {*each.places, *each.shown})
         return next(exact, next(near, ""))
 
 
@@ -306,6 +340,11 @@ def undecided(mark: EarnedMark) -> EarnedMark:
     if decision is None or decision.before is None:
         return replace(mark, decision=None)
     return replace(mark, decision=None, earned=decision.before)
+
+
+def found_only(graded: Graded) -> Graded:
+    """A student's marks as they were found, without decisions."""
+    return replace(graded, marks=tuple(map(undecided, graded.marks)), decision=None)
 
 
 def with_reason(ruling: AnyRuling, reason: str) -> AnyRuling:

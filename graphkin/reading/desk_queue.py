@@ -104,7 +104,7 @@ class DeskQueue(Struct, frozen=True):
             why = unread(problem, units[field], words, shown_cell(beyond_number(text)))
             yield DeskItem(
                 "cell",
-                self.titled(f"{called(mark)}: “{shown}”", places),
+                self.titled(f"{called(mark, words)}: “{shown}”", places),
                 f"“{shown}” {why}",
                 tuple(places),
                 tuple(places),
@@ -151,8 +151,11 @@ class DeskQueue(Struct, frozen=True):
         """An appeal, with the mark that it is about."""
         words, place = self.words, appeal.place
         name = self.names[appeal.who]
-        field = called(self.mark(place)) if appeal.field else words("class.whole")
-        full = list(self.shares([place], [1])) if appeal.field else []
+        field = called(self.mark(place), words) if appeal.field else words("class.whole")
+        mark = self.mark(place) if appeal.field else None
+        is_full = mark is None or mark.earned == mark.points
+        full = [] if is_full else list(self.shares([place], [1]))
+        full += self.undeducted(appeal)
         given = [replace(each, rulings=answering(each.rulings, appeal.text)) for each in full]
         shown = (place,) if appeal.field else self.whole(appeal.who)
         return DeskItem(
@@ -164,6 +167,16 @@ class DeskQueue(Struct, frozen=True):
             (self.stays([place], appeal.text), *given),
             appeal.text,
         )
+
+    def undeducted(self, appeal: Appeal) -> Iterator[DeskChoice]:
+        """The whole form without a deduction, where its causes explain what is asked about."""
+        graded, place = self.graded[appeal.who], appeal.place
+        if not graded.cost or (appeal.field and self.mark(place).status is not Status.CAUSE):
+            return
+        points = sum((mark.earned for mark in graded.marks), Fraction())
+        said = self.words("desk.undeducted", points=points_words(points, self.words))
+        stays = (LeaveMark(*place),) if appeal.field else ()
+        yield DeskChoice(said, (*stays, SetPoints(appeal.who, "", points=points)))
 
     def whole(self, who: str) -> tuple[Place, ...]:
         """The rows of a student's form that earn points."""
@@ -236,7 +249,7 @@ class DeskQueue(Struct, frozen=True):
             for said, run in found:
                 places = [(who, field) for who, _ in run]
                 choices = (self.stays(places), *self.shares(places, (0.5, 1)))
-                title = f"{called(run[0][1])}: {len(run)}×"
+                title = f"{called(run[0][1], words)}: {len(run)}×"
                 yield DeskItem("cluster", title, said, tuple(places), tuple(places), choices)
 
 
@@ -253,9 +266,10 @@ def wrong(graded: Graded) -> Iterator[EarnedMark]:
             yield mark
 
 
-def called(mark: EarnedMark) -> str:
-    """A field's symbol and unit, as plain text."""
-    return ", ".join(filter(None, (plain(mark.item.symbol), mark.item.unit)))
+def called(mark: EarnedMark, words: Words) -> str:
+    """A field's symbol and unit, or that it is a sense, as plain text."""
+    sense = words("table.sense") if mark.item.what == "sense" else ""
+    return ", ".join(filter(None, (plain(mark.item.symbol), mark.item.unit or sense)))
 
 
 Wrong = tuple[str, EarnedMark]

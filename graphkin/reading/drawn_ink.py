@@ -387,7 +387,17 @@ def line_through(along: Any, spots: Any, weights: Any) -> tuple[float, float]:
 def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     """The drawn lines in the fields of a photographed sheet."""
     fields = over.paper.fields
-    flat = flattened(grey, over, fields, DENSITY).astype(np.float32)
+    flat = flattened(grey, over, fields, DENSITY)
+    known = 1 - printed_mask(page, flat.shape, fields)
+    known[~seen_in(grey.shape, over)] = 0
+    deviation = 0.0 if over.ripple is None else over.ripple.deviation
+    sway = float(np.sqrt(max(deviation**2 - PAPER**2, 0.0)))
+    return DrawnInk(lines_of(flat, known), known.astype(np.float32), sway, over.paper)
+
+
+def lines_of(flat: Any, known: Any) -> Any:
+    """The darkness of lines in a flattened picture, 1 on a usual one, from what is ``known``."""
+    flat = flat.astype(np.float32)
     small = cv2.resize(flat, None, fx=1 / 3, fy=1 / 3, interpolation=cv2.INTER_AREA)
     side = 2 * round(OPEN * DENSITY / 3 / 2) + 1
     kernel = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
@@ -396,14 +406,8 @@ def drawn_ink(grey: Any, over: PaperMap, page: Page) -> DrawnInk:
     dark = 1 - flat / np.maximum(paper, 8)
     lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
     lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
-    known = 1 - printed_mask(page, flat.shape, fields)
-    known[~seen_in(grey.shape, over)] = 0
-    inner = lines[known > 0]
-    usual = max(float(np.percentile(inner, LINES)), FAINT)
-    deviation = 0.0 if over.ripple is None else over.ripple.deviation
-    sway = float(np.sqrt(max(deviation**2 - PAPER**2, 0.0)))
-    drawn = np.clip(lines / usual, 0, 1.5).astype(np.float32)
-    return DrawnInk(drawn, known.astype(np.float32), sway, over.paper)
+    usual = max(float(np.percentile(lines[known > 0], LINES)), FAINT)
+    return np.clip(lines / usual, 0, 1.5).astype(np.float32)
 
 
 def seen_in(shape: tuple[int, ...], over: PaperMap) -> Any:

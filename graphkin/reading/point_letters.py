@@ -24,7 +24,7 @@ ROOM, NEAR, ABOUT = 13.0, 8.0, 1.0
 """Half the side of the square about a point that is looked at; pieces lie between ABOUT and NEAR
 mm from the point, where no ring is taken for a letter.
 """
-STRAIGHT, TURNS = 31, np.arange(0.0, 180.0, 5.0)
+STRAIGHT, TURNS = 55, np.arange(0.0, 180.0, 5.0)
 """Lines of so many pixels in one of these directions (degrees) are no part of a letter."""
 SMALLEST, LARGEST = 0.8, 6.0
 """The least and the most height or width of a letter, in mm."""

@@ -33,6 +33,7 @@ from graphkin.reading.point_search import (
     DRAWN,
     FITS,
     JOINS,
+    PASSES,
     SAME,
     SURE,
     ExpectedPlace,
@@ -62,6 +63,8 @@ expected place, and nothing before it on the sheet is wrong or missing. Where fe
 point farther than BESIDE is checked, and so is all that follows from it: another point's lines may
 cross there.
 """
+SLIGHT = 0.8
+"""A place that fits and is no farther than this from where it is expected, in mm, is not off it."""
 AT_KEY = 2.0
 """Squared distance from the key, in deviations, within which a point is at the key."""
 ELSEWHERE = 0.6
@@ -81,6 +84,8 @@ SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
 FLAT = 0.2
 """The most sine of the angle between a vector and a line whose ink may cover the vector's end."""
+STRAYS = 4.0
+"""How far from its expected place, in mm, the tail of a vector that was not read may be."""
 LEVER = 15.0
 """Two points must be this many mm apart to give the direction of the line through them."""
 
@@ -249,22 +254,30 @@ class PointReader(PointSearch):
         vector = unmarked(self.sheet.exact, arrow.step, self.next)
         return complex(np.ravel(self.sheet.place(arrow.tip, vector.tail))[0])
 
-    def is_met(self, number: int, best: LinesCrossing) -> bool:
+    def tails_of(self, arrow: Arrow, place: complex) -> list[complex]:
+        """Where the tail of an arrow to a place is: as read, or where its stroke begins."""
+        tail = self.tail_of(arrow)
+        if arrow.tail is not None and self.is_known(Leading(arrow.tail)):
+            return [tail]
+        return [line.start for line in self.lines(tail, place, STRAYS, PASSES)]
+
+    def is_met(self, number: int, best: LinesCrossing, weighed: complex) -> bool:
         """Whether a point is surely at a crossing, however vaguely it was expected.
 
         More than MEET lines cross there, or two vectors from points that were read end there.
+        ``weighed`` is the place between the crossing and the expected place.
         """
         place = best.place
         wholly = min(best.cover, self.agreement(number, place)) >= FULLY
         if best.count > MEET and wholly:
             return True
-        tails = [
-            self.tail_of(arrow)
+        ways = [
+            tail
             for arrow in self.sheet.arrows
-            if arrow.tip == number and arrow.tail is not None
-            if self.is_known(Leading(arrow.tail)) and arrow.tail not in self.unread
+            if arrow.tip == number and arrow.tail is not None and arrow.tail not in self.unread
+            for tail in self.tails_of(arrow, place)
+            if any(is_headed(self.ink, tail, each) for each in (place, weighed))
         ]
-        ways = [tail for tail in tails if is_headed(self.ink, tail, place)]
         return are_crossing(ways, place)
 
     def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
@@ -516,10 +529,10 @@ class PointReader(PointSearch):
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
-            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best))
+            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, place))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             doubts |= {
-                "off": self.swayed(away, abs(best.place - own.middle)) > SURE,
+                "off": self.is_off(away, abs(best.place - own.middle)),
                 "lines": self.lacks_lines(number, best, own),
                 "elsewhere": doubtful,
                 "vague": loose,
@@ -575,9 +588,13 @@ class PointReader(PointSearch):
         unled = best.count == 2 and not self.is_reached(number, best.place)
         return best.cover < WHOLE or not agreed or unled
 
-    def swayed(self, away: float, off: float) -> float:
-        """The squared distance of a place ``off`` mm away, enlarged by the paper's sway."""
-        return away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
+    def is_off(self, away: float, off: float) -> bool:
+        """Whether a place ``off`` mm away is at the edge of what the pencil explains.
+
+        ``away`` is its squared distance in deviations, which the paper's sway enlarges.
+        """
+        swayed = away * (1 + self.ink.sway / max(off, SHORTEST)) ** 2
+        return swayed > SURE and (off > SLIGHT or away > FITS)
 
     def is_end(self, number: int, best: LinesCrossing) -> bool:
         """Whether the only line that leads to a point ends there."""

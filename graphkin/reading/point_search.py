@@ -9,6 +9,7 @@ that follow from it are drawn.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 from itertools import combinations
 from typing import Any
 
@@ -235,6 +236,8 @@ SAME = 0.7
 """Two points closer than this, in mm, are one on paper."""
 LAST = 6.0
 """The last piece of a line up to a point, in mm."""
+MOST_KEPT = 4096
+"""So many lines and shares of lines are kept: about half of them are asked for again."""
 TRIED = 10
 """The number of places that are also judged by what would follow from them."""
 
@@ -244,6 +247,7 @@ class PointSearch:
 
     def __init__(self, sheet: LetteredSheet, ink: DrawnInk, pencil: Pencil) -> None:
         self.sheet, self.ink, self.pencil = sheet, ink, pencil
+        self.lines, self.cover = lru_cache(MOST_KEPT)(ink.lines), lru_cache(MOST_KEPT)(ink.cover)
         self.own: dict[int, complex] = {}
         self.unread: set[int] = set()
         self.guessed: set[int] = set()
@@ -395,12 +399,12 @@ class PointSearch:
             far = self.far_place(each, self.next)
             if each.bow or each.given:
                 return True
-            found = self.ink.lines(far, place, GUESSED, PASSES) if abs(far - place) > SHORT else []
+            found = self.lines(far, place, GUESSED, PASSES) if abs(far - place) > SHORT else []
             start = max(found, key=lambda line: line.cover).start if found else place
             if abs(start - place) > SHORT:
                 way = (start - place) / abs(start - place)
                 last = place + way * min(abs(start - place), LAST)
-                if self.ink.cover(last, place, 0.4, hidden=1.0) >= DRAWN:
+                if self.cover(last, place, 0.4, hidden=1.0) >= DRAWN:
                     ends.append(start)
                 else:
                     ending = ending or not (each.after or self.is_known(each))
@@ -426,16 +430,16 @@ class PointSearch:
         if leading.given or leading.bow or leading.after or abs(far - place) < 2 * SHORT:
             return None
         if self.begins(leading) & self.guessed:
-            found = self.ink.lines(far, place, GUESSED, 0.5)
+            found = self.lines(far, place, GUESSED, 0.5)
             return max((line.cover for line in found), default=None)
         if leading.far in self.own or (self.is_known(leading) and leading.far not in self.unread):
-            return self.ink.cover(far, place, 0.4, hidden=1.0, arrives=True)
+            return self.cover(far, place, 0.4, hidden=1.0, arrives=True)
         value = self.sheet.exact.trace.values[leading.far]
         if not isinstance(value, Line) and leading.far not in self.unread:
             return None
         if self.is_vague(leading):
             return None
-        found = self.ink.lines(far, place, GUESSED, 0.5)
+        found = self.lines(far, place, GUESSED, 0.5)
         return max((line.cover for line in found), default=0.0)
 
     # --- near the expected place ------------------------------------------------------------------
@@ -559,7 +563,7 @@ class PointSearch:
             far, beside = target - AHEAD * way / abs(way), GUESSED
         if not np.isfinite(far) or abs(far - target) < SHORT:
             return []
-        return self.ink.lines(far, target, beside, where.reach)
+        return self.lines(far, target, beside, where.reach)
 
     def printed_line(self, leading: Leading) -> InkLine:
         """A printed guide, up to where it begins."""
@@ -725,7 +729,7 @@ class PointSearch:
         """
         ways = [
             (
-                self.ink.cover(end, place, hidden=float(end in printed), arrives=True)
+                self.cover(end, place, hidden=float(end in printed), arrives=True)
                 * (EXPLAINED if self.goes_on(end, place) else 1.0),
                 end - place,
             )
@@ -781,7 +785,7 @@ class PointSearch:
                 if abs(place - far) > 2 * SHORT:
                     way = (place - far) / abs(place - far)
                     first, last = place + OVER * way, place + 2 * OVER * way
-                    found.append(self.ink.cover(first, last, 0.3))
+                    found.append(self.cover(first, last, 0.3))
         return found
 
     def followed(self, number: int, place: complex) -> float:
@@ -800,10 +804,10 @@ class PointSearch:
         """The drawn share of a line from a place; of a line that begins there, the better way."""
         far, line = self.far_place(leading, values), values[leading.far]
         if not isinstance(line, Line) or abs(far - place) > SHORT:
-            return self.ink.cover(place, far, 0.8)
+            return self.cover(place, far, 0.8)
         way = complex(np.ravel(line.along)[0]).conjugate()
         ahead = AHEAD / 2 * way / abs(way)
-        return max(self.ink.cover(place, place + each, 0.8) for each in (ahead, -ahead))
+        return max(self.cover(place, place + each, 0.8) for each in (ahead, -ahead))
 
     def settled(self, number: int, place: complex) -> LinesCrossing:
         """A found place, moved to where its lines cross exactly; else to where one of them ends."""
@@ -812,7 +816,7 @@ class PointSearch:
         for leading in self.sheet.leading[number]:
             far = self.far_place(leading, values)
             if not leading.bow and np.isfinite(far) and abs(far - place) > 2 * SHORT:
-                some = self.ink.lines(far, place, 0.8, GUESSED)
+                some = self.lines(far, place, 0.8, GUESSED)
                 lines += [some] if some else []
         found = through(place, distinct(lines, place), GUESSED)
         if found is not None:

@@ -22,6 +22,8 @@ BARE = np.arange(4.0, 5.6, 0.2)
 """Distances in mm behind a tip at which only the shaft is drawn."""
 ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
+SWERVES = 0.75
+"""How far beside the line from its tail to its point a vector's stroke may run farther on, in mm."""
 PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
 ONE_WAY, FAN = np.ones(1), np.exp(1j * np.radians([-4.0, -2.0, 0.0, 2.0, 4.0]))
@@ -71,6 +73,8 @@ RING = 2.0
 """The first millimetres of a vector, which the mark of its tail may hide."""
 BEYOND, RUNS_ON = (2.4, 6.0), 0.9
 """The piece beyond a point, in mm, that is drawn to this share where a vector runs on."""
+UNBROKEN = (1.3, 6.0)
+"""The piece beyond a point, in mm, over which a stroke that runs on has no gap; letters do."""
 EMPTY = 0.2
 """A piece beyond a point that is drawn to no more than this shows that the stroke ends there."""
 BEFORE, STOPS = (0.9, 3.0), 0.6
@@ -134,6 +138,23 @@ def heads(
     return best - np.minimum(*bare)
 
 
+def on_shaft(ink: DrawnInk, places: Any, way: complex) -> Any:
+    """Places moved sideways to the middle of the stroke that comes to them along ``way``.
+
+    A place beyond a vector's tip is beside its stroke, which would else be taken for the side of a
+    head.
+    """
+    aside = np.arange(-SWERVES, SWERVES + 0.01, 0.15)
+    behind = places[:, None, None] + 1j * way * aside[:, None] - way * BARE
+    dark, _ = ink.at(behind.reshape(len(places), -1))
+    full = np.clip(dark, 0, 1).reshape(behind.shape).mean(axis=2)
+    middle = full[:, [len(aside) // 2]]
+    weight = np.clip(full - COVERED, 0, None) * (full.max(axis=1, keepdims=True) > middle)
+    total = weight.sum(axis=1)
+    shift = (weight * aside).sum(axis=1) / np.maximum(total, 1e-6)
+    return places + 1j * way * np.where(total > 0, shift, 0.0)
+
+
 def vector_end(
     ink: DrawnInk,
     tail: complex,
@@ -159,7 +180,7 @@ def vector_end(
     dark = float(np.median(shaft[known > 0])) if known.any() else 1.0
     pale = float(np.clip(PALE * dark, COVERED * PALE, COVERED))
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
-    share = heads(ink, tail + along * way, way, pale)
+    share = heads(ink, on_shaft(ink, tail + along * way, way), way, pale)
     here = float(share[abs(along - long) <= NEAR].max())
     marked = is_marked(ink, tip, RINGS)
     others = [(each - tail) / way for each in others]
@@ -199,8 +220,10 @@ def vector_end(
     if stops:
         head = None
     ended |= stops and plain
-    certain = marked and here >= OWN and there[along > long].max() < OWN
-    runs_on = not (shared or certain) and beyond >= RUNS_ON
+    sure = marked or (not alike and here >= CERTAIN)
+    certain = sure and here >= OWN and there[along > long].max() < OWN
+    unbroken = drawn(ink, tip, way, UNBROKEN, pale) >= RUNS_ON
+    runs_on = not (shared or certain) and beyond >= RUNS_ON and unbroken
     return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
 
 
@@ -216,7 +239,7 @@ def heads_at(ink: DrawnInk, tail: complex, tip: complex) -> float:
     """The drawn share of the head of a vector at its tip."""
     way = (tip - tail) / abs(tip - tail)
     near = np.arange(-NEAR, NEAR + PITCH / 2, PITCH)
-    return float(heads(ink, tip + near * way, way).max())
+    return float(heads(ink, on_shaft(ink, tip + near * way, way), way).max())
 
 
 def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex]) -> bool:

@@ -12,7 +12,6 @@ from collections.abc import Collection, Mapping, Sequence
 
 from msgspec.structs import replace
 
-from graphkin.scene.expression import Pair as Sum
 from graphkin.scene.findings import numbered, shown
 from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
@@ -26,9 +25,10 @@ from graphkin.scene.model import (
     Rolling,
     Slide,
     Wheel,
+    between_centres,
     of_one_size,
 )
-from graphkin.scene.quantity import Quantity, exact
+from graphkin.scene.quantity import Quantity, combined, exact
 from graphkin.text.errors import message
 
 ON_LINE = 1e-12
@@ -195,7 +195,7 @@ def keeper_of(
         return None
     asked = rolling.keeper
     if rolling.through is None:
-        pair = loose_pair(every, own, on)
+        pair = loose_pair(every, own, on, rolling)
         made = bar_between(*pair, measures) if pair else None
     else:
         loose = held.get(rolling.on, 2) < 2 and not bears(every, name, rolling.on)
@@ -237,9 +237,12 @@ def counted_alike(rolling: Rolling, keeper: str) -> Rolling:
     return replace(rolling, keeper=keeper, start=start, turns=turns)
 
 
-def loose_pair(every: Mapping[str, Link], own: Link, on: Link) -> tuple[Wheel, Wheel] | None:
+def loose_pair(
+    every: Mapping[str, Link], own: Link, on: Link, rolling: Rolling
+) -> tuple[Wheel, Wheel] | None:
     """The wheel that rolls and its track wheel, where no third link carries both centres."""
-    pairs = [(w, t) for w in own.wheels for t in on.wheels if not (w.inside and t.inside)]
+    both = rolling.pairs(own.wheels, on.wheels) if on.wheels else []
+    pairs = [(w, t) for w, t in both if not (w.inside and t.inside)]
     others = [set(link.points) for link in every.values() if link is not own and link is not on]
     kept = any({w.centre, t.centre} <= points for w, t in pairs for points in others)
     return pairs[0] if pairs and not kept and pairs[0][0].centre != pairs[0][1].centre else None
@@ -252,11 +255,7 @@ def bar_between(wheel: Wheel, track: Wheel, measures: Measures) -> Link | None:
     """
     if wheel.radius is None or track.radius is None:
         return None
-    own, other = wheel.radius, track.radius
-    if wheel.inside:
-        length = combined("-", own, other)
-    else:
-        length = combined("-" if track.inside else "+", other, own)
+    length = between_centres((wheel, track), (wheel.radius, track.radius))
     if not length.number(measures.values) > 0:
         return None
     ends = track.centre, wheel.centre
@@ -267,12 +266,6 @@ def origin(point: str, measures: Measures) -> At:
     """A point at the origin of its link."""
     zero = exact(0, measures.units["length"])
     return At(point, zero, zero)
-
-
-def combined(sign: str, one: Quantity, other: Quantity) -> Quantity:
-    """The sum or difference of two lengths, in the unit of the first."""
-    text = f"({one.text}) {sign} ({other.text})"
-    return Quantity(text, Sum(sign, one.tree, other.tree), one.unit, one.place)
 
 
 def block_on(wheel: Wheel, rolling: Rolling, measures: Measures) -> Link | None:

@@ -6,6 +6,7 @@ earlier points. The construction finds where a link lies in the plane.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, get_args
@@ -16,7 +17,7 @@ from msgspec.structs import astuple, replace
 from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
 from graphkin.scene.house import FRAMES, PLAIN, USUAL_PAPER, House
-from graphkin.scene.quantity import LENGTHS, Quantity, in_unit
+from graphkin.scene.quantity import LENGTHS, Quantity, combined, in_unit
 from graphkin.text.errors import Message, message
 from graphkin.text.school_signs import USUAL, SchoolSigns
 from graphkin.text.tables import listed
@@ -152,12 +153,17 @@ class Slide(Struct, frozen=True):
 
 
 class Wheel(Struct, frozen=True):
-    """A circle of a link about one of its points; ``inside`` for a ring with inner teeth."""
+    """A circle of a link about one of its points; ``inside`` for a ring with inner teeth.
+
+    ``sized`` says what gave the radius of a wheel known by its teeth alone: a distance of centres,
+    or a module that the program proposes.
+    """
 
     centre: str
     radius: Quantity | None
     teeth: Quantity | None = None
     inside: bool = False
+    sized: Literal["", "distance", "proposed"] = ""
 
 
 def of_one_size(one: Wheel, other: Wheel) -> bool:
@@ -170,14 +176,18 @@ def of_one_size(one: Wheel, other: Wheel) -> bool:
     return bool(r.number({}) == s.number({}))
 
 
-class Belt(Struct, frozen=True):
-    """A belt, chain or rope round two wheels, ``crossed`` or open.
+def between_centres(wheels: Sequence[Wheel], sizes: Sequence[Quantity]) -> Quantity:
+    """The sum of the sizes of two wheels that touch; their difference where one is a ring."""
+    (one, other), (first, second) = wheels, sizes
+    if one.inside:
+        return combined("-", first, second)
+    return combined("-" if other.inside else "+", second, first)
 
-    ``wheels`` are the indices, in their links' lists, of the wheel and of the one it runs ``on``.
-    """
+
+class Belt(Struct, frozen=True):
+    """A belt, chain or rope round two wheels, ``crossed`` or open."""
 
     crossed: bool = False
-    wheels: tuple[int, int] = (0, 0)
 
     @property
     def sense(self) -> int:
@@ -191,7 +201,8 @@ class Rolling(Struct, frozen=True):
     With a ``belt`` the wheels do not touch: the belt joins their rims, without slip. ``turns`` are
     whole turns, added to the angle of a link that only its pins determine. That angle is otherwise
     within half a turn of its ``start``. ``keeper`` is the massless link that keeps the wheel in
-    contact, where no link of the scene does.
+    contact, where no link of the scene does. ``wheels`` are the indices, in their links' lists, of
+    the wheel and of the one it rolls ``on``; without them the distance of the centres decides.
     """
 
     on: str
@@ -202,6 +213,14 @@ class Rolling(Struct, frozen=True):
     turns: Mapping[str, Quantity] = {}
     belt: Belt | None = None
     keeper: str = ""
+    wheels: tuple[int, int] | None = None
+
+    def pairs(self, own: Sequence[Wheel], other: Sequence[Wheel]) -> list[tuple[Wheel, Wheel]]:
+        """The wheels of both links that may touch: the two named, else each with each."""
+        if self.wheels is None:
+            return [(one, another) for one in own for another in other]
+        i, k = self.wheels
+        return [*zip(own[i : i + 1], other[k : k + 1], strict=False)]
 
     def named(self, wheel: str) -> Message:
         """The description of the contact of a wheel."""
@@ -552,14 +571,14 @@ class Sheet(Struct, frozen=True):
 class StatedPositions(Struct, frozen=True):
     """The positions that a sheet of the whole motion shows.
 
-    ``count`` are the equal steps of the driver. ``start`` is "scene", "dead" for a dead point, or a
-    position of the driver. ``strong`` is the number of the position that is drawn strongly, None
-    for the one nearest to the scene's own. With ``one_pole`` all plans of a kind have one pole;
-    otherwise each has its own. ``accelerations`` are the numbers of the positions with an
-    acceleration plan, None for all.
+    ``count`` are the equal steps of the driver, which may depend on parameters. ``start`` is
+    "scene", "dead" for a dead point, or a position of the driver. ``strong`` is the number of the
+    position that is drawn strongly, None for the one nearest to the scene's own. With ``one_pole``
+    all plans of a kind have one pole; otherwise each has its own. ``accelerations`` are the numbers
+    of the positions with an acceleration plan, None for all.
     """
 
-    count: int = 12
+    count: int | Quantity = 12
     start: Literal["scene", "dead"] | Quantity = "scene"
     strong: int | None = None
     one_pole: bool = False
@@ -670,6 +689,11 @@ class Scene(Struct, frozen=True, dict=True):
         """The points of the frame that do not move, unlike a fixed cam's centre of curvature."""
         return tuple(point for point in self.frame.points if point not in self.cam_centres)
 
+    def driver_name(self, driver: Driver) -> str:
+        """The driven link, with the other one where several drivers move it: 1, or 1-2."""
+        several = sum(each.link == driver.link for each in self.drivers) > 1
+        return f"{driver.link}-{driver.against}" if several else driver.link
+
     @property
     def keepers(self) -> Mapping[str, tuple[str, Rolling]]:
         """The massless links that keep wheels in contact, with the wheels' links."""
@@ -678,9 +702,25 @@ class Scene(Struct, frozen=True, dict=True):
 
     @property
     def unseen(self) -> frozenset[str]:
-        """The keepers of wheels that no driver moves; they are not mentioned to the reader."""
+        """The keepers of wheels that are not mentioned to the reader.
+
+        A keeper that a driver moves is mentioned, and one that keeps two wheels at their distance,
+        as the arm between sun and ring does.
+        """
         driven = {end for driver in self.drivers for end in (driver.link, driver.against)}
-        return frozenset(name for name in self.keepers if name not in driven)
+        axles = Counter(each for link in self.every_link for each in self.axles_of(link))
+        return frozenset(
+            name
+            for name in self.keepers
+            if name not in driven and axles[frozenset(self.links[name].points)] < 2
+        )
+
+    def axles_of(self, link: Link) -> Iterator[frozenset[str]]:
+        """The centres of both wheels of each contact of a link with a wheel."""
+        for rolling in link.rolls:
+            if rolling.through is None and rolling.belt is None:
+                pairs = rolling.pairs(link.wheels, self.link(rolling.on).wheels)
+                yield from {frozenset((one.centre, other.centre)) for one, other in pairs}
 
     @property
     def bare(self) -> Scene:
@@ -719,8 +759,8 @@ class Scene(Struct, frozen=True, dict=True):
         belt = rolling.belt
         if belt is None or belt.crossed:
             return False
-        own, other = belt.wheels
-        return of_one_size(self.link(name).wheels[own], self.link(rolling.on).wheels[other])
+        both = rolling.pairs(self.link(name).wheels, self.link(rolling.on).wheels)
+        return of_one_size(*both[0])
 
     @cached_property
     def cams(self) -> Mapping[str, Cam]:

@@ -237,6 +237,12 @@ def expression(text: str, unit: str = "", place: str = "", *, counting: bool = F
     return Quantity(text, parse(text, counting=counting), unit, place)
 
 
+def combined(sign: str, one: Quantity, other: Quantity) -> Quantity:
+    """Two quantities joined by an operation, in the unit of the first."""
+    text = f"({one.text}) {sign} ({other.text})"
+    return Quantity(text, Pair(sign, one.tree, other.tree), one.unit, one.place)
+
+
 def shortest(value: Real) -> str:
     """The shortest decimal text of a number: all digits up to 17 if it terminates, else 12."""
     if isinstance(value, Fraction):

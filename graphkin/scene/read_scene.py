@@ -29,7 +29,7 @@ from graphkin.scene.requests import (
     read_positions,
     read_sheet,
 )
-from graphkin.scene.wheels import read_drums, read_tracks, read_wheels
+from graphkin.scene.wheels import read_drums, read_tracks, read_wheels, sized_by_teeth
 from graphkin.text import paths
 from graphkin.text.errors import (
     NO_WORDS,
@@ -217,7 +217,8 @@ def assembled(
     if any(link.has_wheels for link in (frame, *links.values())):
         from graphkin.scene.keepers import with_keepers
 
-        frame, links = with_keepers(frame, links, drivers, measures)
+        every = sized_by_teeth({FRAME: frame, **links}, measures)
+        frame, links = with_keepers(every.pop(FRAME), every, drivers, measures)
     sheet = read_sheet(top.table("sheet"), measures, house)
     points = tuple(point for link in (frame, *links.values()) for point in link.points)
     return Scene(

@@ -40,7 +40,7 @@ from graphkin.text import LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 from graphkin.text.school_signs import SCHOOLS
 
-OF_LINKS = ("curves", "jerk")
+OF_LINKS = ("curves",)
 """The keys of [ask] that list points of links, not points such as A@3."""
 CENTRES_ASKED, PAIRS = "centres", "pairs"
 """The key that may also hold pairs of links, and where the scene keeps these."""
@@ -250,7 +250,7 @@ def read_positions(
     table: Table, drivers: tuple[Driver, ...], measures: Measures
 ) -> StatedPositions:
     """The positions that a sheet of the whole motion shows."""
-    count = whole_number(table, table.at("count"), table.take("count"), FEWEST_STEPS, MOST_STEPS)
+    count = read_count(table, measures)
     numbers = 0, MOST_STEPS
     strong = whole_number(table, table.at("strong"), table.take("strong"), *numbers)
     one_pole = table.choice("poles", POLES, POLES[0]) == POLES[1]
@@ -267,7 +267,15 @@ def read_positions(
         table.findings.add(table.at("accelerations"), shown(raw), expected)
     start = read_start(table, drivers, measures)
     table.finish()
-    return StatedPositions(count or USUAL_STEPS, start, strong, one_pole, accelerations)
+    return StatedPositions(count, start, strong, one_pole, accelerations)
+
+
+def read_count(table: Table, measures: Measures) -> int | Quantity:
+    """The number of positions: a whole number, or an expression in parameters that gives one."""
+    raw, place = table.take("count"), table.at("count")
+    if isinstance(raw, str):
+        return measures.number(place, raw, "")
+    return whole_number(table, place, raw, FEWEST_STEPS, MOST_STEPS) or USUAL_STEPS
 
 
 def whole_number(table: Table, place: str, raw: object, least: int, most: int) -> int | None:

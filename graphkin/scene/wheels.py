@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import chain, count
 from math import prod
+from typing import Literal
 
+from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.scene.expression import Number
+from graphkin.scene.expression import Call, Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Findings, Table, numbered, shown
 from graphkin.scene.known_names import check_guide, known_link, known_point, quoted
 from graphkin.scene.measures import Measures
-from graphkin.scene.model import FRAME, Belt, Driver, Link, Rolling, Scene, Wheel, link_words
+from graphkin.scene.model import (
+    FRAME,
+    At,
+    Belt,
+    Driver,
+    Link,
+    Rolling,
+    Scene,
+    Wheel,
+    between_centres,
+    lengths_of,
+    link_words,
+)
 from graphkin.scene.phrases import SIDES, link_name, point_name
-from graphkin.scene.quantity import Quantity, shortest
+from graphkin.scene.quantity import Quantity, combined, exact, shortest
 from graphkin.scene.read_joints import MOST, read_line, tables
 from graphkin.text.errors import NO_WORDS, Hint, Mend, SceneError, message
 
+BY_RADIUS_OR_TEETH = message("radius = …, or teeth = … and module = …")
 OTHER = message("the link that carries the other wheel, 0 for the frame")
 TRACK = message("the link that carries the track or the other wheel, 0 for the frame")
 STEMS = ("T", "K", "H")
@@ -34,7 +50,10 @@ def read_wheels(table: Table, measures: Measures, module: Quantity | None) -> tu
 
 
 def read_wheel(table: Table, measures: Measures, module: Quantity | None) -> Wheel:
-    """One wheel: a centre with a radius, or with teeth and a module that give the radius."""
+    """One wheel: a centre with a radius, or with teeth and a module that give the radius.
+
+    Teeth alone leave the radius open; ``sized_by_teeth`` finds it.
+    """
     centre = point_name(table.at("centre"), table.take("centre"), measures.findings) or ""
     raw_radius, raw_teeth, own = table.take("radius"), table.take("teeth"), table.take("module")
     if own is not None:
@@ -50,16 +69,8 @@ def read_wheel(table: Table, measures: Measures, module: Quantity | None) -> Whe
             )
     elif teeth is not None and module is not None:
         radius = pitch_radius(teeth, module)
-    else:
-        found = message("no radius") if teeth is None else message("teeth without a module")
-        hint = (
-            NO_WORDS
-            if teeth is None
-            else message("a module at the top of the file is that of every wheel")
-        )
-        measures.findings.add(
-            table.place, found, message("radius = …, or teeth = … and module = …"), hint
-        )
+    elif teeth is None:
+        measures.findings.add(table.place, message("no radius"), BY_RADIUS_OR_TEETH)
     inside = table.flag("inside")
     table.finish()
     return Wheel(centre, radius, teeth, inside)
@@ -81,6 +92,208 @@ def pitch_radius(teeth: Quantity, module: Quantity) -> Quantity:
     return Quantity(text, tree, module.unit, teeth.place)
 
 
+# --- wheels known by their teeth alone -----------------------------------------------------------
+
+PROPOSED = {
+    "mm": Fraction(2),
+    "cm": Fraction(1, 5),
+    "m": Fraction(1, 500),
+    "in": Fraction(1, 10),
+    "ft": Fraction(1, 120),
+}
+"""The module, in each unit, of a train of which no length is known."""
+
+Key = tuple[str, int]
+"""A wheel: its link, and its index in the link's list."""
+
+
+class WheelPair(Struct, frozen=True):
+    """Two wheels that touch or that a belt joins."""
+
+    ends: tuple[Key, Key]
+    wheels: tuple[Wheel, Wheel]
+    belt: bool
+
+    @property
+    def axles(self) -> frozenset[str]:
+        """The centres of both wheels."""
+        return frozenset(wheel.centre for wheel in self.wheels)
+
+    @property
+    def toothed(self) -> bool:
+        """Whether both wheels have teeth, and so one module."""
+        return all(wheel.teeth is not None for wheel in self.wheels)
+
+    def reach(self, sizes: Sequence[Quantity]) -> Quantity:
+        """The sum of the wheels' sizes, or in a ring their difference."""
+        return between_centres(self.wheels, sizes)
+
+
+def sized_by_teeth(links: Mapping[str, Link], measures: Measures) -> dict[str, Link]:
+    """The links, with radii for the wheels that are known by their teeth alone.
+
+    Wheels in mesh have one module. It follows from a wheel of the train whose radius is known, or
+    from the distance of two centres: written in a link, or kept by wheels on the same two axles.
+    Where the scene has no such length, a module is proposed. A rack needs a written module.
+    """
+    wheels = {(k.name, i): wheel for k in links.values() for i, wheel in enumerate(k.wheels)}
+    alone = {key for key, wheel in wheels.items() if wheel.radius is None and wheel.teeth}
+    if not alone:
+        return dict(links)
+    meshes = [*meshes_of(links, alone, measures)]
+    train = {key: {key} for key in wheels}
+    for mesh in meshes:
+        if mesh.toothed and train[mesh.ends[0]] is not train[mesh.ends[1]]:
+            both = train[mesh.ends[0]] | train[mesh.ends[1]]
+            train.update(dict.fromkeys(both, both))
+    racked = {(k.name, k.wheels.index(k.rim)) for k in links.values() if on_rack(k)}
+    modules: dict[Key, Quantity] = {}
+    sources: dict[Key, Literal["distance", "proposed"]] = {}
+
+    def settle(key: Key, module: Quantity, source: Literal["distance", "proposed"]) -> None:
+        modules.update(dict.fromkeys(train[key], module))
+        sources.update(dict.fromkeys(train[key], source))
+
+    for key, wheel in wheels.items():
+        if wheel.radius is not None and wheel.teeth is not None and key not in modules:
+            settle(key, combined("/", doubled(wheel.radius), wheel.teeth), "distance")
+    reached = {axles: far for m in meshes if (far := distance(links, axles := m.axles)) is not None}
+    while True:
+        spread(meshes, wheels, modules, reached, settle, measures)
+        free = (key for key in alone if key not in modules and not train[key] & racked)
+        open_ = min(free, key=[*wheels].index, default=None)
+        if open_ is None:
+            break
+        belts = (m for m in meshes if m.belt and open_ in m.ends and m.axles in reached)
+        if (belt := next(belts, None)) is not None:  # both rims within the distance of the centres
+            teeth = [wheel.teeth for wheel in belt.wheels if wheel.teeth is not None]
+            settle(open_, combined("/", reached[belt.axles], combined("+", *teeth)), "proposed")
+        else:
+            unit = measures.units["length"]
+            settle(open_, exact(PROPOSED[unit], unit), "proposed")
+    return {name: with_radii(link, modules, sources, measures) for name, link in links.items()}
+
+
+def spread(
+    meshes: Sequence[WheelPair],
+    wheels: Mapping[Key, Wheel],
+    modules: Mapping[Key, Quantity],
+    reached: dict[frozenset[str], Quantity],
+    settle: Callable[[Key, Quantity, Literal["distance"]], None],
+    measures: Measures,
+) -> None:
+    """Take modules from distances and distances from modules until neither adds any."""
+    touching = [mesh for mesh in meshes if not mesh.belt]
+    before = -1
+    while before < (before := len(modules) + len(reached)):
+        for mesh in touching:
+            sizes = [size_of(wheels[end], modules.get(end)) for end in mesh.ends]
+            known = [size for size in sizes if size is not None]
+            if len(known) == 2 and mesh.axles not in reached:
+                reached[mesh.axles] = mesh.reach(known)
+            far, teeth = reached.get(mesh.axles), [w.teeth for w in mesh.wheels if w.teeth]
+            if far is not None and mesh.toothed and mesh.ends[0] not in modules:
+                many = mesh.reach(teeth)
+                if many.number(measures.values) > 0:
+                    settle(mesh.ends[0], combined("/", doubled(far), many), "distance")
+
+
+def size_of(wheel: Wheel, module: Quantity | None) -> Quantity | None:
+    """The radius of a wheel as written, or from its teeth and a module; None if unknown."""
+    if wheel.radius is not None or wheel.teeth is None or module is None:
+        return wheel.radius
+    return pitch_radius(wheel.teeth, module)
+
+
+def meshes_of(
+    links: Mapping[str, Link], alone: Collection[Key], measures: Measures
+) -> Iterator[WheelPair]:
+    """The contacts of wheels with wheels; one that may be of several pairs is noted."""
+    for link in links.values():
+        for index, rolling in enumerate(link.rolls):
+            on = links.get(rolling.on)
+            if on is None or on is link or rolling.through is not None:
+                continue
+            ways = [
+                WheelPair(((link.name, i), (on.name, k)), (own, other), rolling.belt is not None)
+                for i, own in enumerate(link.wheels)
+                for k, other in enumerate(on.wheels)
+                if rolling.wheels in (None, (i, k)) and not (own.inside and other.inside)
+            ]
+            ways = [way for way in ways if len(way.axles) == 2]
+            if len(ways) == 1:
+                yield ways[0]
+            elif any(alone.__contains__(end) for way in ways for end in way.ends):
+                place = "frame" if link.name == FRAME else f"links.{link.name}"
+                place = numbered(f"{place}.rolls", index, len(link.rolls))
+                found = message("several wheels known by their teeth alone may mesh here")
+                expected = message(
+                    "wheels = [1, 2]: the wheel of this link and that of the other, counted from 1"
+                )
+                measures.findings.add(place, found, expected)
+
+
+def with_radii(
+    link: Link,
+    modules: Mapping[Key, Quantity],
+    sources: Mapping[Key, Literal["distance", "proposed"]],
+    measures: Measures,
+) -> Link:
+    """A link whose wheels have the radii that modules give; a wheel without one is noted."""
+    found = list[Wheel]()
+    for index, wheel in enumerate(link.wheels):
+        module = modules.get((link.name, index))
+        if wheel.radius is not None or wheel.teeth is None:
+            found.append(wheel)
+        elif module is not None:
+            radius, source = pitch_radius(wheel.teeth, module), sources[link.name, index]
+            found.append(replace(wheel, radius=radius, sized=source))
+        else:
+            found.append(wheel)
+            place = "frame" if link.name == FRAME else f"links.{link.name}"
+            hint = message("the way of a rack depends on the module of its pinion")
+            measures.findings.add(
+                numbered(f"{place}.wheel", index, len(link.wheels)),
+                message("teeth without a module"),
+                BY_RADIUS_OR_TEETH,
+                hint,
+            )
+    return replace(link, wheels=tuple(found))
+
+
+def on_rack(link: Link) -> bool:
+    """Whether a wheel of a link rolls on a straight track."""
+    return bool(link.wheels) and any(rolling.through is not None for rolling in link.rolls)
+
+
+def distance(links: Mapping[str, Link], ends: Collection[str]) -> Quantity | None:
+    """The distance of two points that a link gives by its length or by coordinates."""
+    for link in links.values():
+        if not set(ends) <= set(link.points):
+            continue
+        for placing in link.placings:
+            for one, other, length in lengths_of(placing):
+                if {one, other} == set(ends):
+                    return length
+        places = [p for p in link.placings if isinstance(p, At) and p.point in ends]
+        if len(places) == 2:
+            x, y = (
+                combined("-", *pair) for pair in zip(*((p.x, p.y) for p in places), strict=True)
+            )
+            square = combined("+", combined("*", x, x), combined("*", y, y))
+            return Quantity(f"sqrt({square.text})", Call("sqrt", square.tree), x.unit, x.place)
+    return None
+
+
+def doubled(one: Quantity) -> Quantity:
+    """Twice a quantity."""
+    tree = Product("*", Number(Fraction(2)), one.tree)
+    return Quantity(f"2*({one.text})", tree, one.unit, one.place)
+
+
+# --- tracks and belts ----------------------------------------------------------------------------
+
+
 def read_tracks(table: Table, measures: Measures) -> tuple[Rolling, ...]:
     """The tracks that the wheels of a link roll on, then the belts that run on them."""
     belts = (read_belt(each, measures) for each in tables(table, "belt"))
@@ -93,7 +306,7 @@ def read_rolls(table: Table, measures: Measures) -> tuple[Rolling, ...]:
 
 
 def read_rolling(table: Table, measures: Measures) -> Rolling:
-    """One track: ``{ on, through, angle, start, turns, side, link }``.
+    """One track: ``{ on, through, angle, start, turns, side, link, wheels }``.
 
     A track on another wheel has no line.
     """
@@ -115,8 +328,13 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
     keeper = ""
     if (name := table.take("link")) is not None:
         keeper = link_name(table.at("link"), name, measures.findings) or ""
+    wheels = read_pair(table, measures)
+    if wheels is not None and through is not None:
+        measures.findings.add(
+            table.at("wheels"), message("wheels beside through"), message("one of the two")
+        )
     table.finish()
-    return Rolling(on, through, angle, start, side or 1, turns, keeper=keeper)
+    return Rolling(on, through, angle, start, side or 1, turns, keeper=keeper, wheels=wheels)
 
 
 def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
@@ -136,21 +354,23 @@ def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
 def read_belt(table: Table, measures: Measures) -> Rolling:
     """One belt: ``{ on, crossed, wheels, start, turns }``; ``wheels`` count from one."""
     on = link_name(table.at("on"), table.take("on"), measures.findings, OTHER) or FRAME
-    crossed, raw = table.flag("crossed"), table.take("wheels")
-    wheels = (1, 1)
-    match raw:
-        case [int(own), int(other)] if 0 < own <= MOST and 0 < other <= MOST:
-            wheels = own, other
-        case _ if raw is not None:
-            expected = message(
-                "[1, 2]: the wheel of this link and that of the other, counted from 1"
-            )
-            measures.findings.add(table.at("wheels"), shown(raw), expected)
+    crossed, wheels = table.flag("crossed"), read_pair(table, measures) or (0, 0)
     start = by_link(table, "start", measures, measures.units["angle"])
     turns = by_link(table, "turns", measures, "")
     table.finish()
-    belt = Belt(crossed, (wheels[0] - 1, wheels[1] - 1))
-    return Rolling(on, None, None, start, 1, turns, belt)
+    return Rolling(on, None, None, start, 1, turns, Belt(crossed), wheels=wheels)
+
+
+def read_pair(table: Table, measures: Measures) -> tuple[int, int] | None:
+    """The indices of the two wheels of a contact, from ``wheels``; None where it is absent."""
+    match raw := table.take("wheels"):
+        case None:
+            return None
+        case [int(own), int(other)] if 0 < own <= MOST and 0 < other <= MOST:
+            return own - 1, other - 1
+    expected = message("[1, 2]: the wheel of this link and that of the other, counted from 1")
+    measures.findings.add(table.at("wheels"), shown(raw), expected)
+    return None
 
 
 def by_link(table: Table, key: str, measures: Measures, unit: str) -> dict[str, Quantity]:
@@ -183,7 +403,7 @@ def check_tracks(scene: Scene, link: Link, place: str, findings: Findings) -> No
         for index, rolling in enumerate(rollings):
             where = numbered(f"{place}.{key}", index, len(rollings))
             check_rolling(scene, link, rolling, where, findings)
-            check_belt(scene, link, rolling, where, findings)
+            check_pair(scene, link, rolling, where, findings)
 
 
 def check_rolling(
@@ -227,12 +447,12 @@ def check_rolling(
             )
 
 
-def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings) -> None:
-    """Note a belt on wheels that do not exist or have no outer rim."""
+def check_pair(scene: Scene, link: Link, rolling: Rolling, place: str, findings: Findings) -> None:
+    """Note a contact of wheels that do not exist, and a belt on a ring."""
     on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
-    if rolling.belt is None or on is None:
+    if rolling.wheels is None or on is None:
         return
-    for each, index in zip((link, on), rolling.belt.wheels, strict=True):
+    for each, index in zip((link, on), rolling.wheels, strict=True):
         if each.wheels and index >= len(each.wheels):
             found = message(
                 "wheel {index} of {name}, which has {count}",
@@ -243,7 +463,7 @@ def check_belt(scene: Scene, link: Link, rolling: Rolling, place: str, findings:
             findings.add(
                 f"{place}.wheels", found, message("a number up to {count}", count=len(each.wheels))
             )
-        elif each.wheels and each.wheels[index].inside:
+        elif rolling.belt is not None and each.wheels and each.wheels[index].inside:
             found = message("the wheel of {name} is a ring", name=link_words(each.name))
             findings.add(place, found, message("a wheel with a rim outside, for a belt to run on"))
 

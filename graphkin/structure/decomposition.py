@@ -89,7 +89,8 @@ def driven_by(
     if driver.kind == "turn":
         pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
         if pins:
-            return Crank(link, driver, pins[0].point)
+            first, second = pins[0].links
+            return Crank(link, driver, pins[0].point, second if first == link else first)
         return turned_wheel(joints, driver, link) or spun(joints, known, driver, link)
     for pair in joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:

@@ -58,7 +58,7 @@ def touching(
     link, on = scene.link(name), scene.link(rolling.on)
     if rolling.through is None:
         kept = list(kept_centres(scene, name, rolling))
-        loose = RollingContact(link.wheels[0], on.wheels[0], None)
+        loose = RollingContact(*rolling.pairs(link.wheels, on.wheels)[0], None)
     else:
         kept = list(kept_heights(scene, name, rolling, before))
         loose = RollingContact(link.rim, None, None)
@@ -73,8 +73,7 @@ def touching(
 
 def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingContact:
     """The two wheels of a belt. Raises StructureError where the belt cannot run on them."""
-    own, other = belt.wheels
-    wheel, track = scene.links[name].wheels[own], scene.link(rolling.on).wheels[other]
+    wheel, track = rolling.pairs(scene.links[name].wheels, scene.link(rolling.on).wheels)[0]
     arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
     if arm is None:
         centres = f"{track.centre}-{wheel.centre}"
@@ -136,15 +135,14 @@ def kept_centres(scene: Scene, name: str, rolling: Rolling) -> Iterator[WheelsAp
     External wheels touch at the sum of their radii; a ring and a wheel within it touch at the
     difference. Two rings cannot touch, nor can a ring and a larger wheel.
     """
-    for wheel in scene.link(name).wheels:
-        for track in scene.link(rolling.on).wheels:
-            arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
-            if arm is None or (wheel.inside and track.inside):
-                continue
-            points, own, other = body(scene, arm), radius(scene, wheel), radius(scene, track)
-            distance = abs(points[wheel.centre] - points[track.centre])
-            needed = other - own if track.inside else own - other if wheel.inside else own + other
-            yield WheelsApart(wheel, track, arm, distance, needed)
+    for wheel, track in rolling.pairs(scene.link(name).wheels, scene.link(rolling.on).wheels):
+        arm = owner_of(scene, (wheel.centre, track.centre), (name, rolling.on))
+        if arm is None or (wheel.inside and track.inside):
+            continue
+        points, own, other = body(scene, arm), radius(scene, wheel), radius(scene, track)
+        distance = abs(points[wheel.centre] - points[track.centre])
+        needed = other - own if track.inside else own - other if wheel.inside else own + other
+        yield WheelsApart(wheel, track, arm, distance, needed)
 
 
 def owner_of(scene: Scene, points: Sequence[str], but: Sequence[str]) -> str | None:
@@ -237,11 +235,32 @@ def gap(scene: Scene, name: str, rolling: Rolling, apart: WheelsApart) -> Proble
     expected = message("the sum of the radii, {centres} = {needed}", **needed)
     if apart.track.inside or apart.wheel.inside:
         expected = message("the difference of the radii, {centres} = {needed}", **needed)
-    is_ring = may_be_ring(scene, apart)
-    hint = (
-        message("write inside = true in the larger wheel, if it is a ring") if is_ring else NO_WORDS
-    )
+    hint = teeth_hint(scene, rolling, apart)
+    if may_be_ring(scene, apart):
+        hint = message("write inside = true in the larger wheel, if it is a ring")
     return Problem(place, found, expected, hint)
+
+
+def teeth_hint(scene: Scene, rolling: Rolling, apart: WheelsApart) -> Message:
+    """Words for the number of teeth with which a track wheel would touch.
+
+    Empty where the number is not whole, or where the scene writes the module.
+    """
+    wheel, track = apart.wheel, apart.track
+    if not wheel.sized or wheel.teeth is None or track is None or track.teeth is None:
+        return NO_WORDS
+    own = radius(scene, wheel)
+    teeth = wheel.teeth.number(scene.values) / own
+    needed = apart.distance + own if track.inside else abs(apart.distance - own)
+    many = round(float(teeth * needed))
+    if many < 1 or abs(many - teeth * needed) > TOUCH * many:
+        return NO_WORDS
+    return message(
+        "{many} teeth instead of {teeth} would touch there; profile-shifted gears have a radius "
+        "for each distance",
+        many=many,
+        teeth=track.teeth.written(scene.values),
+    )
 
 
 def aside(scene: Scene, distance: float, *, left: bool) -> Message:

@@ -34,10 +34,14 @@ class OneLink(Struct, frozen=True):
 
 
 class Crank(OneLink, frozen=True):
-    """A link that a driver turns about a pin with known motion."""
+    """A link that a driver turns about a pin with known motion.
+
+    Link ``base`` carries the pin. It may be another than the one against which the driver turns.
+    """
 
     driver: Driver
     pivot: str
+    base: str
 
     @property
     def against(self) -> str:
@@ -52,7 +56,8 @@ class Crank(OneLink, frozen=True):
     @property
     def words(self) -> str:
         """Its kind, class and order, its links and the pairs that join it."""
-        return f"crank {self.link} about {self.pivot}{self.against} (class I)"
+        named = "crank" if self.link == "crank" else f"crank {self.link}"
+        return f"{named} about {self.pivot}{self.against} (class I)"
 
 
 class Driven(OneLink, frozen=True):

@@ -31,7 +31,6 @@ from graphkin.classroom.lab.proposed_ranges import (
     ProposedRanges,
     formula_faults,
     proposed_ranges,
-    variants_lines,
 )
 from graphkin.classroom.lab.read_lab import LAB, SCENE, read_lab
 from graphkin.classroom.lab.rules import exact_text
@@ -92,7 +91,7 @@ def proposal_of(texts: LabTexts) -> LabProposal | LabProblems:
 def searched(lab: Lab) -> LabProposal:
     """The search of a lab's whole space, and of a formula's faults."""
     found = fair_ranges(lab)
-    formula = None if lab.rule.draws else formula_faults(lab)
+    formula = None if lab.rule.is_drawn else formula_faults(lab)
     return LabProposal(found, proposed_ranges(lab, found), formula)
 
 
@@ -264,7 +263,7 @@ def lab_advice(proposal: LabProposal, texts: LabTexts, words: Words) -> LabAdvic
         return LabAdvice(
             fair, shares, kept=words("studio.no_ranges"), formula=formula, mending=mending
         )
-    lines = variants_lines(new.ranges, new.course)
+    lines = new.lines
     gaps = {"count": new.count, "apart": f"{100 * new.apart:g}", "kept": new.kept, "of": new.of}
     rules = with_variants(texts.rules, lines)
     kept = words("studio.kept_apart", **gaps)

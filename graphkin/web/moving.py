@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from math import pi
+from string import digits
 from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
@@ -30,7 +31,7 @@ from graphkin.text.errors import GraphkinError, SceneError
 from graphkin.web.field_binder import FieldBinder, Record, box_of, half
 from graphkin.web.follow import MarkBindings
 from graphkin.web.moving_sheet import MovingSheet
-from graphkin.web.offline_page import MOVING, joined
+from graphkin.web.offline_page import MOVING, MOVING_CLOSED, bundled
 from graphkin.web.page_driver import PageDriver, Reach, driven_by, figures
 from graphkin.web.traced_closings import TrackedBranch
 from graphkin.web.tracing import Tracing
@@ -177,10 +178,10 @@ def followed(
     ``led`` collects, by a label's record, the records of the leader and the circle that go with it.
 
     Each field has the index of its first record, its room, and the box of the marks that do not
-    move. ``seen`` lists the marks that must be in sight: index of the record, reach across and
-    reach down. ``labels`` lists the same for labels, large ones first, then in the order of their
-    steps, with a fourth number from ``MarkBindings.sides``. ``off`` lists the records of labels
-    kept off a point.
+    move. ``seen`` lists the marks that must be in sight: index of the record, with the reach
+    across and down where there is any. ``labels`` lists the same for labels, large ones first,
+    then in the order of their steps, with a fourth number from ``MarkBindings.sides``. ``off``
+    lists the records of labels kept off a point.
     """
     angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -194,7 +195,8 @@ def followed(
         for k, record in following.records():
             still.discard(marks[k])
             if following.in_sight(marks[k], record):
-                seen.append([len(records), *half(marks[k])])
+                reach = half(marks[k])
+                seen.append([len(records), *reach] if any(reach) else len(records))
             if following.keeps_off(k, record):
                 off.append(len(records))
             if record[0] in "tb" and isinstance(mark := marks[k], Text):
@@ -335,18 +337,30 @@ def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]
 
 def source(data: dict[str, Any], tracing: Tracing) -> str:
     """The construction, the data, and the code that places the marks, in one expression."""
-    text = json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    told = data | {"marks": list(short_ids(data["marks"]))}
+    text = json.dumps(told, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
     lines = [
         "const graphkinMotion = (() => {",
         '"use strict";',
         MATH,
         script_source(tracing.graph, tracing.tape.outputs, tracing.inputs, "run"),
         *misses(tracing),
+        bundled(MOVING_CLOSED if tracing.closings else MOVING),
         f"const data = {text};",
-        joined(MOVING),
+        f"return graphkinMoving(data, run{', closings' if tracing.closings else ''});",
         "})();",
     ]
     return "\n".join(lines) + "\n"
+
+
+def short_ids(records: Sequence[Record]) -> Iterator[Record]:
+    """Records of marks; of ids with the letters of the one before, only the number remains."""
+    letters = ""
+    for name, *rest in records:
+        own = name.rstrip(digits)
+        number = name.removeprefix(own)
+        yield [int(number) if own == letters and number else name, *rest]
+        letters = own
 
 
 def misses(tracing: Tracing) -> Iterator[str]:
@@ -354,7 +368,8 @@ def misses(tracing: Tracing) -> Iterator[str]:
     names = [f"miss{i}" for i, _ in enumerate(tracing.closings)]
     for name, each in zip(names, tracing.closings, strict=True):
         yield script_source(tracing.graph, each.outputs, tracing.inputs, name)
-    yield f"const closings = [{','.join(names)}];"
+    if names:
+        yield f"const closings = [{','.join(names)}];"
 
 
 def turned_through(tracing: Tracing) -> Iterator[dict[str, Any]]:

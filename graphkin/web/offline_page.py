@@ -14,11 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.registry import BOARD, PALETTE
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import font_face
-from graphkin.drawing.style import BRIEF, DRAWN, Ink, in_variables
+from graphkin.drawing.style import BRIEF, Ink, in_variables
 from graphkin.web.protocol import Timed
 from graphkin.writers.svg import LETTERING, element, number, parted_text, rules
 from graphkin.writers.templates import from_template
@@ -70,9 +69,9 @@ def named(text: str) -> str:
 
 
 def data_block(name: str, value: Any) -> str:
-    """Data that a script reads by its id; no character of it can end the block."""
+    """Data that a script reads by its id; no text in it can end the block or begin a comment."""
     text = json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    text = text.replace("<", "\\u003c").replace("&", "\\u0026")
+    text = text.replace("</", "<\\/").replace("<!", "\\u003c!")
     return f'<script type="application/json" id="{escape(name)}">{text}</script>'
 
 
@@ -82,136 +81,21 @@ def part(name: str) -> str:
     return (WEB / name).read_text(encoding="utf-8")
 
 
-# --- the scripts of pages: short files that share their names, joined in a fixed order ------------
+# --- the scripts of pages: modules of the folder, each program bundled into one file --------------
 
 
-STEP_PAGE = (
-    "page.js",
-    "numbers.js",
-    "sheets.js",
-    "bars.js",
-    "zoom.js",
-    "view.js",
-    "lettering.js",
-    "halos.js",
-    "highlights.js",
-    "carried.js",
-    "writing.js",
-    "tracing.js",
-    "sentences.js",
-    "values.js",
-    "stepping.js",
-    "travel.js",
-    "driver.js",
-    "figures.js",
-    "grab.js",
-    "beginning.js",
-    "room.js",
-    "address.js",
-    "playing.js",
-    "palette.js",
-    "turn_state.js",
-    "history.js",
-    "pick_shapes.js",
-    "picking.js",
-    "turn_marks.js",
-    "pointing.js",
-    "typing.js",
-    "choosing.js",
-    "checking.js",
-    "answers.js",
-    "hints.js",
-    "levels.js",
-    "turn_events.js",
-    "your_turn.js",
-    "aiming.js",
-    "keys.js",
-)
-"""The script of a step page: while loading, a file uses only the files before it."""
-BOARD_PAGE = (
-    "board_page.js",
-    "numbers.js",
-    "sheets.js",
-    "bars.js",
-    "zoom.js",
-    "view.js",
-    "palette.js",
-    "board_state.js",
-    "history.js",
-    "pick_shapes.js",
-    "picking.js",
-    "turn_marks.js",
-    "pointing.js",
-    "typing.js",
-    "choosing.js",
-    "turn_events.js",
-    "board_moves.js",
-    "board_marks.js",
-    "board.js",
-)
-"""The script of the board on a task page."""
-PLAYER = ("numbers.js", "curves.js", "player.js")
-"""The script of a cycle's page."""
-MOVING = ("closing.js", "moving.js")
-"""The script that places the marks that follow the driver."""
-FORM = ("form.js",)
-"""The script of a form for answers."""
+BUNDLES = WEB / "bundles"
+"""The bundles, which ``python -m tests.scripts`` makes from the modules beside them."""
+STEP_PAGE, BOARD_PAGE, PLAYER, FORM = "step", "board", "player", "form"
+"""The programs: a step page, the board of a task page, a cycle's page, a form for answers."""
+MOVING, MOVING_CLOSED = "moving", "moving_closed"
+"""What places the marks that follow a driver; the second closes groups of class III anew."""
 
 
-def written_in(names: tuple[str, ...]) -> dict[str, str]:
-    """The values of a script's placeholders: classes of lines, and actions of its palette."""
-    actions = BOARD if names == BOARD_PAGE else PALETTE
-    return {
-        "$STROKES": json.dumps(",".join(f".{look}" for look in (*DRAWN, "link", "outline"))),
-        "$ACTIONS": json.dumps(
-            {
-                key: [each.shape, each.plane, each.lies_with]
-                for key, each in actions.items()
-                if (each.shape, each.plane, each.lies_with) != ("point", None, 0)
-            },
-            separators=(",", ":"),
-        ),
-        "$TYPED": json.dumps(
-            {key: each.typed for key, each in actions.items()},
-            ensure_ascii=False,
-            separators=(",", ":"),
-        ),
-        "...$DRAW,": "\n".join(
-            f"{key}: {''.join(map(str.strip, each.script.splitlines(keepends=False)))},"
-            for key, each in actions.items()
-        ),
-    }
-
-
-REMARK = re.compile(r"(?<=[;,{}\])])\s+// [^\"'`]*$")
-"""A comment at the end of a line, without any quotation mark."""
-TEXT = re.compile("[\"'`/\\\\]")
-"""Characters of a line with a string, a regular expression or a division."""
-SIGN = re.compile(r" *([=<>?:,;{}()\[\]&|*]+) *")
-"""Characters that need no blanks around them; two + or - must not meet."""
-REMARKS = ("//", "/**")
-"""The starts of lines that are comments."""
-
-
-def together(names: tuple[str, ...]) -> str:
-    """Some files as one script, whose names are hidden from the rest of the page."""
-    return "\n".join(("(() => {", '"use strict";', tight(joined(names)), "})();"))
-
-
-def tight(script: str) -> str:
-    """A script without blanks around operators, on lines without strings and divisions."""
-    lines = script.split("\n")
-    return "\n".join(line if TEXT.search(line) else SIGN.sub(r"\1", line) for line in lines)
-
-
-@lru_cache(maxsize=4)
-def joined(names: tuple[str, ...]) -> str:
-    """Some files in sequence, without comments."""
-    lines = (REMARK.sub("", line.strip()) for name in names for line in part(name).splitlines())
-    script = "\n".join(line for line in lines if line and not line.startswith(REMARKS))
-    for place, what in written_in(names).items():
-        script = script.replace(place, what)
-    return script
+@lru_cache(maxsize=8)
+def bundled(program: str) -> str:
+    """The script of a program; its names are hidden from the rest of the page."""
+    return (BUNDLES / f"{program}.js").read_text(encoding="utf-8").strip()
 
 
 # --- a field of a sheet as a picture in a page, in inks that follow the light and dark themes -----

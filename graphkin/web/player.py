@@ -35,7 +35,7 @@ from graphkin.web.facts import asked_rows, blocks_asked, senses
 from graphkin.web.frames import FrameSequence, made, place_in
 from graphkin.web.moving import Moving, moving
 from graphkin.web.moving_labels import ASIDE, GAP, LEFT, LETTER
-from graphkin.web.offline_page import PLAYER, data_block, ink_sheet, offline_page, part, together
+from graphkin.web.offline_page import PLAYER, bundled, data_block, ink_sheet, offline_page, part
 from graphkin.web.offline_page import placed as drawn
 from graphkin.web.protocol import Timed
 from graphkin.web.screen_sheets import ScreenSheet
@@ -91,7 +91,7 @@ def player_page(motion: FrameSequence, words: Words) -> str:
         part("curves.css"),
         shape(set_up),
     )
-    scripts = (moved.source, together(PLAYER))
+    scripts = (moved.source, bundled(PLAYER))
     return offline_page(title, words.language, body, looks, scripts)
 
 

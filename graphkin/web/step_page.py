@@ -36,12 +36,12 @@ from graphkin.web.offline_page import (
     BOARD_PAGE,
     STEP_PAGE,
     bar_rules,
+    bundled,
     data_block,
     field_picture,
     ink_sheet,
     offline_page,
     part,
-    together,
 )
 from graphkin.web.page_driver import PageDriver, Reach, window
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
@@ -278,7 +278,7 @@ def step_page(
         turning=data_block("turning", turn_record(sheets, turn, owner)),
         run=data_block("run", record(sheets, protocol)),
     )
-    scripts = [together(STEP_PAGE)]
+    scripts = [bundled(STEP_PAGE)]
     if moves.source:
         scripts.insert(0, moves.source)
     styles = [part("steps.css"), part("story.css"), part("your_turn.css")]
@@ -316,7 +316,7 @@ def task_page(
         form=form.body if form else "",
     )
     styles = [*map(part, ("steps.css", "your_turn.css", "board.css"))]
-    scripts = [together(BOARD_PAGE)]
+    scripts = [bundled(BOARD_PAGE)]
     if form:
         styles.append(form.style)
         scripts.insert(0, form.script)

@@ -1,4 +1,4 @@
-"""Draw the marks of a page, lettering included, in matplotlib axes, in millimetres with y up."""
+"""Draw the marks of a page with matplotlib, lettering included: in axes, or as a PNG file."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, cast
 
+import numpy as np
 from matplotlib.font_manager import FontProperties
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
@@ -18,6 +19,7 @@ from graphkin.drawing.marks import (
     CircleMark,
     LineMark,
     Mark,
+    Page,
     Polyline,
     Text,
     reach,
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 INCH = 25.4
+DOTS = 150
+"""Dots per inch of a PNG."""
 POINTS = 72 / INCH
 SIGNS = ("pole", "point", "pin", "centre", "number")
 """The classes of figures with a fixed size, independent of the drawing's scale."""
@@ -86,6 +90,31 @@ def put_to_scale(
             put(ax, patch, order / len(marks))
 
 
+def write_png(page: Page, ink: Ink = "colour", dots: int = DOTS) -> bytes:
+    """A page as a PNG on white, the same bytes every time."""
+    import io
+
+    from matplotlib.backends.backend_agg import RendererAgg
+    from PIL import Image
+
+    page.check()
+    scale = dots / INCH
+    wide, high = round(page.width * scale), round(page.height * scale)
+    renderer: Any = RendererAgg(wide, high, dots)  # type: ignore[no-untyped-call]
+    paper = Affine2D().scale(1, -1).translate(0, page.height)
+    pixels = Affine2D().scale(scale)
+    for mark in page.marks:
+        for patch in patches(mark, style_of(mark.cls, ink, page.weight), paper):
+            patch.set_transform(pixels)
+            patch.draw(renderer)
+    image = Image.fromarray(np.asarray(renderer.buffer_rgba()))
+    found = Image.new("RGB", image.size, "white")
+    found.paste(image, mask=image)
+    out = io.BytesIO()
+    found.save(out, "PNG", dpi=(dots, dots), compress_level=4)
+    return out.getvalue()
+
+
 def in_place(ax: Axes, x: float, y: float) -> Transform:
     """Millimetres of the figure about a place of the axes."""
     size = Affine2D().scale(1 / INCH) + ax.figure.dpi_scale_trans
@@ -123,7 +152,7 @@ def patches(mark: Mark, style: Style, page: Affine2D) -> Iterator[Patch]:
         for run in runs(mark.markup, mark.height):
             turned = Affine2D().scale(1, -1).translate(mark.left() + run.x, run.y)
             turned = turned.rotate_deg(-mark.rotate).translate(mark.x, mark.y)
-            letters = TextPath((0, 0), run.text, size=run.size, prop=face(run.italic))
+            letters = outlines(run.text, run.size, run.italic)
             shape = (turned + page).transform_path(letters)
             yield PathPatch(shape, fc=style.colour, lw=0, snap=False)  # whole pixels would bend ⊥
         return
@@ -157,6 +186,12 @@ def path_of(mark: Mark) -> tuple[Path, bool]:
     assert not isinstance(mark, Text)
     ends = [mark.points[0]] if mark.closed else []
     return Path([*mark.points, *ends], closed=mark.closed), mark.closed
+
+
+@lru_cache(maxsize=2048)
+def outlines(text: str, size: float, italic: bool) -> Path:
+    """The outlines of letters from the origin, y up."""
+    return TextPath((0, 0), text, size=size, prop=face(italic))
 
 
 @lru_cache(maxsize=2)

@@ -8,15 +8,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 from warnings import catch_warnings, filterwarnings
 
-from graphkin.numbers.arithmetic import np
-
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 COLOURS = ("#1f5fa8", "#c8501e", "#2b8a5b", "#8a4fa3", "#b8860b", "#4a5a6a", "#c2407d", "#008b9a")
 """Colours of the curves in order; distinct in grey and for the colour-blind, too."""
-DASHES: tuple[Any, ...] = ("-", (0, (6, 2)), (0, (1.2, 1.6)), (0, (6, 2, 1.2, 2)))
 INK = "#26323c"
 FAINT = "#8895a0"
 PALE = "#dfe5ea"
@@ -135,13 +132,6 @@ def picture_files(
     return files
 
 
-def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]:
-    """The first names that fit into a figure, and words for the rest."""
-    if len(names) <= most:
-        return list(names), ""
-    return list(names[:most]), f" ({most} of {len(names)} {noun}; the table holds all)"
-
-
 def legend(ax: Axes) -> None:
     """Draw the legend above the panel, on the right, away from the curves."""
     handles, labels = ax.get_legend_handles_labels()
@@ -161,52 +151,3 @@ def legend(ax: Axes) -> None:
 def panel_heading(ax: Axes, text: str, *, raised: bool = False) -> None:
     """Draw the heading above a panel on the left; raised, above a long legend."""
     ax.set_title(text, loc="left", fontweight="bold", pad=20 if raised else None)
-
-
-def colour(number: int) -> str:
-    """The colour of the curve of a number."""
-    return COLOURS[number % len(COLOURS)]
-
-
-def dash(number: int) -> Any:
-    """The stroke of the curve of a number: solid first, dashed once the colours are used up."""
-    return DASHES[(number // len(COLOURS)) % len(DASHES)]
-
-
-def subscripted(letter: str, name: str) -> str:
-    """A letter with a name as index: v with B, or with B₃ for B@3."""
-    point, _, link = name.replace("_", r"\_").partition("@")
-    below = f"{point}_{{{link}}}" if link else point
-    return rf"${letter}_{{\mathrm{{{below}}}}}$"
-
-
-def span_of(at: Any, values: Sequence[Any]) -> tuple[float, float] | None:
-    """Axis limits that cut off curves running to infinity, wide enough for the rest.
-
-    None where no curve runs to infinity, so that everything may be shown.
-    """
-    even = np.linspace(at.min(), at.max(), 1001)
-    order = np.argsort(at)
-    after = np.clip(np.searchsorted(at[order], even), 1, len(at) - 1)
-    gap = at[order][after] - at[order][after - 1]
-    even = even[gap < GAP * np.ptp(at)]  # not between two ranges
-    known = np.concatenate([np.interp(even, at[order], v[order]) for v in values])
-    known = known[np.isfinite(known)]
-    if not known.size:
-        return None
-    most = max(float(np.nanmax(np.abs(v[np.isfinite(v)]), initial=0.0)) for v in values)
-    usual = float(np.quantile(np.abs(known), 0.85))
-    if most <= RUNS_AWAY * usual or usual == 0:
-        return None
-    inside = known[np.abs(known) <= KEPT * usual]
-    low, high = min(float(inside.min()), 0.0), max(float(inside.max()), 0.0)
-    room = 0.08 * (high - low)
-    return low - room, high + room
-
-
-GAP = 0.02
-"""Distance of two places, as a share of the whole, across which nothing is drawn."""
-RUNS_AWAY = 5.0
-"""Ratio of the largest to the usual value beyond which a curve runs to infinity."""
-KEPT = 2.0
-"""Multiple of the usual value up to which values stay visible."""

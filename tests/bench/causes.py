@@ -62,7 +62,7 @@ def a_class(
                 }
                 made[taker.student.id] = way
                 break
-    result = graded_class(book, takers, answers)
+    result = graded_class(book, takers, answers, as_it_is=True)
     return [(g, made[i]) for g in result.graded if (i := g.taker.student.id) in made]
 
 

@@ -17,7 +17,9 @@ from graphkin.web.step_page import step_page
 from graphkin.web.your_turn import PaletteMove, YourTurn, your_turn
 from tests.browser.drawing_hand import DrawingHand, TypingHand
 from tests.browser.opening import PAINTED, Opened
+from tests.browser.test_page import PHONE
 from tests.browser.test_your_turn import begun as begun_at
+from tests.browser.test_your_turn import said
 
 EN = words("en")
 FROM = 5
@@ -79,6 +81,64 @@ def test_both_plans_of_the_pump_in_250_keys(opened: Opened, pump: Path, moves):
     print(sum(hand.presses), median(hand.presses), hand.presses)
     assert sum(hand.presses) <= 250
     assert median(hand.presses) <= 6
+
+
+def test_a_digit_of_a_typed_line_is_no_choice(kept: Opened, pump: Path):
+    """While a line is being written, 1 and 2 belong to it; on an empty line they choose."""
+    page = begun(kept, pump)
+    typed(page, "o vA")
+    assert page.locator("#which button").count() == 2
+    page.keyboard.type("A1")
+    assert page.locator("#turn-typed").input_value() == "A1"
+    assert page.locator("#which button").count() == 2
+    page.keyboard.press("Backspace")
+    page.keyboard.press("Backspace")
+    page.keyboard.press("1")
+    assert is_right(said(page))
+
+
+GLASS = """() => {
+  const box = document.querySelector(".magnifier"), { bottom } = box.getBoundingClientRect();
+  const svg = box.firstChild, { x, y, width, height } = svg.viewBox.baseVal;
+  const fields = document.querySelectorAll(".sheet:not([hidden]) .view:not(.magnifier) > svg");
+  const own = fields[1].getScreenCTM();
+  const { x: u, y: v } = new DOMPoint(x + width / 2, y + height / 2).matrixTransform(own);
+  const count = what => box.querySelectorAll(what).length, times = svg.getScreenCTM().a / own.a;
+  return { bottom, middle: [u, v], times, lit: count(".aims .lit"), ids: count("[id]") };
+}"""
+"""The lower edge of the magnifier, the place and the size that it shows, and what is lit in it."""
+
+
+def test_a_held_finger_has_a_magnifier(kept: Opened, pump: Path):
+    """Above the finger, about its place, with what would be taken; a tap or a mouse needs none."""
+    page = begun_at(kept, pump.parent, pump.stem, FROM + 1, **PHONE)
+    pole = page.locator(".sheet:not([hidden]) .view > svg circle.pole").bounding_box()
+    at = {"x": pole["x"] + pole["width"] / 2, "y": pole["y"] + pole["height"] / 2}
+    finger = page.context.new_cdp_session(page)
+
+    def touch(kind: str, *points: dict[str, float]) -> None:
+        finger.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": [*points]})
+
+    glass = page.locator(".magnifier")
+    touch("Start", at)
+    glass.wait_for()
+    for place in (at, {"x": at["x"] - 40, "y": at["y"] - 30}):
+        touch("Move", place)
+        page.evaluate(PAINTED)
+        found = page.evaluate(GLASS)
+        assert found["middle"] == pytest.approx([place["x"], place["y"]], abs=1.5)
+        assert found["bottom"] < place["y"] - 20
+        assert found["times"] == pytest.approx(2.5, rel=0.02)
+        assert found["lit"] >= 1 and found["ids"] == 0
+    touch("End")
+    glass.wait_for(state="detached")
+    touch("Start", at)
+    touch("End")
+    page.mouse.move(at["x"], at["y"])
+    page.mouse.down()
+    page.mouse.move(at["x"] + 30, at["y"])
+    assert glass.count() == 0
+    page.mouse.up()
 
 
 # --- levels ---------------------------------------------------------------------------------------

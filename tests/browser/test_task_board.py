@@ -14,6 +14,7 @@ from graphkin.drawing.field import Field
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Line
 from graphkin.scene import scene_files
+from graphkin.text import words
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from tests.browser.opening import Opened, barred
 from tests.browser.test_form import class_folder, page_of, save
@@ -52,6 +53,7 @@ x
 d
 """
 """The pump's position and velocity plan as they are typed; after a stroke the result to take."""
+RO = words("ro")
 MOST_PRESSES = 250
 """The most key presses for the plan."""
 MOST_CLICKS = 95
@@ -75,6 +77,26 @@ def fresh(opened: Opened, path: Path, **options: Any) -> Any:
     page.evaluate("localStorage.clear()")
     page.reload()
     return page
+
+
+NOTHING = {
+    "par O1 5\npar O2 5": "parallel",
+    "arc O1 5\narc O2 5": "unmet",
+    "arc O1 5\npar o 5": "apart",
+}
+"""Two lines or arcs that do not cross, and the key of the reason."""
+
+
+@pytest.mark.parametrize("lines", NOTHING)
+def test_the_board_says_why_nothing_can_be_drawn(opened: Opened, folder: Path, lines: str):
+    page = fresh(opened, page_of(folder))
+    typed(page, lines)
+    page.locator("[data-action=cut]").click()
+    for place, key in enumerate(("own1", "own2")):
+        page.locator("#inputs select").nth(place).select_option(value=key)
+    page.locator("#turn-draw").click()
+    assert page.locator("#turn-say").inner_text().endswith(f". {RO(f'board.{NOTHING[lines]}')}")
+    assert log_of(page).count(BETWEEN) == 1
 
 
 def log_of(page: Any) -> str:

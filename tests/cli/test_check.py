@@ -36,6 +36,24 @@ def test_the_other_closure_is_what_the_scene_finds_with_the_other_branch(tmp_pat
     assert other.fails == ""
 
 
+@pytest.mark.parametrize(
+    ("unit", "place"),
+    [
+        ("mm", "(135.615, 89.825) mm"),
+        ("cm", "(135.6145, 89.8247) cm"),
+        ("m", "(135.614512, 89.824703) m"),
+        ("in", "(135.615, 89.825) in"),
+    ],
+)
+def test_closures_are_in_the_unit_of_the_scene(
+    unit: str, place: str, run: Run, tmp_path: Path
+) -> None:
+    text = (ROOT / "examples" / "scenes" / "four-bar-crank-rocker.toml").read_text("utf-8")
+    path = tmp_path / "four-bar.toml"
+    path.write_text(text.replace('length = "mm"', f'length = "{unit}"'), encoding="utf-8")
+    assert f"left of B-D        {place} " in run("check", str(path)).stdout
+
+
 # --- structure: the count, the truth, and the drivers --------------------------------------------
 
 CRANKS = """

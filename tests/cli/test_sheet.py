@@ -64,6 +64,15 @@ def test_files_are_named_after_scene_setting_kind_and_view(
     assert (out / "pump-n7-calculation-key.pdf").read_bytes().startswith(b"%PDF")
 
 
+def test_several_views_are_written_at_once(run: Run, tmp_path: Path, blank: object) -> None:
+    result = run("sheet", "pump", "-o", tmp_path, "--view", "key,task", "--format", "pdf")
+    assert result.exit_code == 0, result.stderr
+    kinds = ("acceleration", "calculation", "velocity")
+    assert names(tmp_path) == [
+        f"pump-{kind}-{view}.pdf" for kind in kinds for view in ("key", "task")
+    ]
+
+
 def test_existing_files_are_kept_unless_forced(run: Run, tmp_path: Path, blank: object) -> None:
     old = tmp_path / "pump-velocity-key.pdf"
     old.write_text("mine")

@@ -30,6 +30,13 @@ def pump(run: Run) -> Any:
     return solved(run, "pump", "--set", "n=7")
 
 
+def test_all_scale_factors_are_in_the_units_that_are_asked_for(run: Run, pump: Any) -> None:
+    """Per metre of paper: 1:5 is 5 m, or 500 cm."""
+    own, si = solved(run, "pump", "--set", "n=7", "--units", "scene")["scales"], pump["scales"]
+    assert si["kL"] == 5 and own["kL"] == 500
+    assert all(own[k] == pytest.approx(100 * si[k]) for k in ("kL", "kv", "ka"))
+
+
 TIGHT = scene_text("cli/tight")
 
 

@@ -9,7 +9,17 @@ import pytest
 
 from graphkin.construction.higher_class.closure_solver import KEPT, ClosureSolver, Trying
 from graphkin.construction.higher_class.trial import Trial
-from graphkin.diagnosis.ranges import FEWER, FEWEST, ROUNDS, WORK, closing, swept, where_it_closes
+from graphkin.diagnosis import ranges
+from graphkin.diagnosis.ranges import (
+    FEWER,
+    FEWEST,
+    ROUNDS,
+    WORK,
+    closing,
+    ranges_of,
+    swept,
+    where_it_closes,
+)
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.mechanism import load
 from graphkin.motion.course import Course
@@ -98,6 +108,34 @@ def test_a_ring_that_does_not_close_is_followed_from_one_of_a_few_positions():
     group = Course(swept(scene, 1), scene.branches).group(0)
     before, beyond = map(len, group.every(end + np.array([-0.01, 0.01])))
     assert before - beyond == 2
+
+
+def test_a_ring_is_followed_through_a_plate_that_is_stretched_flat():
+    """Near -80.6° the legs to one plate are in line, so the two signs of that dyad meet.
+
+    Both ends are folds of the sixteen equations of the bars, followed by pseudo-arclength.
+    """
+    text = (EXAMPLES / "plates-ring.toml").read_text(encoding="utf-8")
+    text = text.replace("O-A = 50", "O-A = 200").replace("angle = 255", "angle = 160")
+    ((low, high),) = closing(read_text(text, "ring", None, {})).ranges
+    assert low == pytest.approx(-86.6281, abs=2e-4)
+    assert high == pytest.approx(-12.9934, abs=2e-4)
+
+
+def test_a_range_is_sought_once_a_scene(monkeypatch):
+    """The range of ``check`` and the hint of an error are the same search."""
+    scene = load(str(EXAMPLES / "four-bar-triple-rocker.toml")).scene
+    calls: list[int] = []
+
+    def counted(course, count):
+        calls.append(count)
+        return ranges_of(course, count)
+
+    monkeypatch.setattr(ranges, "ranges_of", counted)
+    first = closing(scene)
+    where_it_closes(scene)
+    assert closing(scene) is first
+    assert len(calls) == 1
 
 
 def test_a_range_that_is_searched_everywhere_says_nothing_of_it():

@@ -701,8 +701,8 @@ class Reader(Trials):
         self.loci = []
 
     @says(
-        "⟨name⟩ by similarity: it divides ⟨a⟩⟨b⟩(?: \\((?:= ⟨t⟩⟨u⟩, )?.*?\\))? as ⟨r⟩ divides "
-        "⟨p⟩⟨q⟩"
+        "⟨name⟩ by similarity: it lies on line ⟨a⟩⟨b⟩(?: \\((?:= ⟨t⟩⟨u⟩, )?.*?\\))? as "
+        "⟨r⟩ lies on line ⟨p⟩⟨q⟩"
     )
     def similar_in_line(
         self, name: str, a: str, b: str, r: str, p: str, q: str, t: str | None, u: str | None

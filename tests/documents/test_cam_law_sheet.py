@@ -8,11 +8,13 @@ from math import degrees, pi, radians
 import numpy as np
 import pytest
 
-from graphkin.documents.cam_law_sheet import CamLaw, limit_of, strips
+from graphkin.documents.cam_law_sheet import CamLaw, axes_of, limit_of, strips
+from graphkin.documents.diagrams_sheet import Axes, numbers_along
 from graphkin.documents.positions import positions_of
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import LineMark, Page, Text
 from graphkin.mechanism import load
+from graphkin.motion.transmission import all_extremes
 from graphkin.text import LANGUAGES, words
 from tests.chosen import FOLDER
 
@@ -59,9 +61,9 @@ def test_each_diagram_is_the_derivative_of_the_one_above(name):
 def test_the_steepest_places_are_the_middles_of_rise_and_return():
     law = law_of("cam-roller")
     rise, back = law.steepest(1), law.steepest(-1)
-    assert degrees(rise[0]) == pytest.approx(60, abs=0.5)
+    assert degrees(rise[0]) == pytest.approx(60, abs=1e-4)
     assert rise[1] == pytest.approx(0.04 / radians(120))
-    assert degrees(back[0]) == pytest.approx(240, abs=0.5)
+    assert degrees(back[0]) == pytest.approx(240, abs=1e-4)
     assert back[1] == pytest.approx(-1.875 * 0.02 / radians(120))
     names = {mark.name for mark in page_of("cam-roller").marks if isinstance(mark, LineMark)}
     assert {"steepest rise", "steepest return"} <= names
@@ -82,6 +84,35 @@ def test_the_pressure_angle_is_held_against_its_limit():
     assert any(m.name == "limit" for m in page_of("cam-plate").marks if isinstance(m, LineMark))
     assert "beyond the customary limit" in said("cam-plate")
     assert "within the customary limit" in said("cam-roller")
+
+
+@pytest.mark.parametrize("name", ["cam-roller", "cam-plate", "cam-lever"])
+def test_the_largest_pressure_angle_is_as_sure_as_that_of_the_cycle(name):
+    """Not that of the nearest sample; the extremes of the cycle find it by another search."""
+    law = law_of(name)
+    at, most = law.largest(law.pressure_at)
+    ((*found,),) = all_extremes(law.found.cycle)
+    (own,) = [each for each in found if each.measure.name == "pressure angle"]
+    assert most == pytest.approx(own.largest.value, rel=1e-9)
+    assert most >= law.pressure.max()
+    assert f"{most:.3f}°" in said(name)
+    beside = law.pressure_at(np.array([at - 1e-3, at + 1e-3]))
+    assert (beside < most).all()
+
+
+def test_every_axis_has_two_numbers_beside_zero():
+    """Also where values reach a little farther than one round number to both sides."""
+    axes = Axes((0.0, 0.0, 100.0, 20.0), 10.0, 1.0, 2.2, 0.0)
+    marks = [*numbers_along(words("en"), axes, "s", 1.0, 4)]
+    told = [float(m.markup.replace("−", "-")) for m in marks if isinstance(m, Text)]
+    assert len(told) >= 2
+    assert max(map(abs, told)) <= 10 / 2.2
+    for name in CAMS:
+        law = law_of(name)
+        for index, strip in enumerate(strips(law)):
+            frame = axes_of(law, strip, 10.0, 35.0)
+            made = [*numbers_along(words("en"), frame, f"{index}", strip.factor, 4)]
+            assert sum(isinstance(m, Text) for m in made) >= 2, (name, strip.symbol)
 
 
 def test_a_flat_face_that_slides_has_no_pressure_angle():

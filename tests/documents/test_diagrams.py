@@ -28,6 +28,7 @@ from graphkin.documents.diagrams_sheet import (
     cost_of_second,
     derived_twice,
     mean_ordinates,
+    of_forces,
     values_at,
 )
 from graphkin.documents.positions import positions_of
@@ -35,11 +36,13 @@ from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import CircleMark, LineMark, Page, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import StatedPositions
+from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
+from tests.scene_files import scene_text
 
 DRAWN = ("crank-rocker", "shaper", "cam-roller", "gears-planet", "five-bar", "jumper")
 
@@ -280,6 +283,25 @@ def test_a_wheel_at_constant_speed_has_no_jerk():
     """What is left of its differences is rounding."""
     moved = motion(mechanism_named("gears-pair"), 12)
     assert (moved.third(np.linspace(1.0, 300.0, 50)) == 0).all()
+
+
+def test_the_diagrams_show_the_asked_forces_over_the_driver():
+    """They are those of single positions, and have no crosses of a plan."""
+    mechanism = Mechanism(read_text(scene_text("motion/press"), "press"))
+    found = positions_of(mechanism, words("en"))
+    at = found.planned_places
+    fine = np.linspace(at[0], at[-1], 25)
+    every = {each.name: each for each in of_forces(found, at, fine)}
+    assert every.keys() == {"R_12", "R_03", "M_b1"}
+    for k in (1, 7, 20):
+        solved, _ = found.cycle.path.ranges[0][0].course.mechanism(float(fine[k])).forces()
+        (balance,) = solved.balance
+        assert every["M_b1"].fine[k] == pytest.approx(balance.moment, rel=1e-9)
+    assert (every["R_12"].fine >= 0).all()
+    assert not np.isfinite(every["M_b1"].at_positions).any()
+    page = sheets_of(mechanism)["courses"][0]
+    drawn = {m.name for m in page.marks if getattr(m, "cls", "") == "profile"}
+    assert {"R_12", "R_03", "M_b1"} <= drawn
 
 
 def test_the_mechanical_advantage_balances_the_power():

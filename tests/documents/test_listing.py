@@ -11,6 +11,7 @@ from graphkin.documents.listing import listed
 from graphkin.documents.sheet import sheet_heading
 from graphkin.drawing.field import A3
 from graphkin.drawing.richtext import are_clear, extent
+from graphkin.text.errors import PageError
 from tests.documents.sheet_tools import drawings
 
 LEFT, TOP, BOTTOM = A3.below[0] + 2, A3.below[1] + 10.5, A3.below[3] - 3.5
@@ -42,7 +43,9 @@ def test_lines_of_long_data_stand_apart():
         assert below.y + extent("T", below.height)[1] - foot > 0.1
 
 
-def test_small_lines_stay_where_even_their_signs_touch(monkeypatch):
+def test_lines_whose_signs_touch_go_to_another_sheet(monkeypatch):
     (drawing, _) = drawings("pump", 3)
+    assert {mark.height for mark in list_of(drawing)} == {listing.HEIGHT}
     monkeypatch.setattr(listing, "are_clear", lambda *_: False)
-    assert {mark.height for mark in list_of(drawing)} == {listing.LOOKS[-1][0]}
+    with pytest.raises(PageError):
+        list_of(drawing)

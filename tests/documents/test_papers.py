@@ -43,6 +43,18 @@ def pages_on(paper: str, view: str, name: str = "pump", more: str = ""):
     return [page for part in parts if part.kind != "calculation" for page in part.pages]
 
 
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_calculations_of_a_school_with_ansi_papers_are_on_letter(view: str) -> None:
+    for paper, size in (("ANSI B", (215.9, 279.4)), ("A2", (210.0, 297.0))):
+        (part,) = (each for each in hand_out(on(paper), view) if each.kind == "calculation")
+        for page in part.pages:
+            assert (page.width, page.height) == size
+            boxes = [reach(mark) for mark in page.marks]
+            sides = min(box[0] for box in boxes), size[0] - max(box[2] for box in boxes)
+            assert sides[0] - 10 == pytest.approx(sides[1], abs=0.1)  # the filing margin
+            assert max(box[3] for box in boxes) < size[1] - 9
+
+
 @pytest.mark.parametrize("paper", OTHERS)
 @pytest.mark.parametrize("view", VIEWS)
 def test_every_view_is_drawn_on_every_paper_within_its_frame(paper: str, view: str) -> None:

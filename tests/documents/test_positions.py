@@ -5,6 +5,7 @@ from __future__ import annotations
 from cmath import rect
 from collections.abc import Iterator
 from functools import cache
+from itertools import pairwise
 from math import cos, hypot, radians, sin, sqrt
 
 import pytest
@@ -295,3 +296,27 @@ def test_a_whole_motion_is_drawn_in_metres_whatever_the_unit_of_results(view):
         for length in ('length = "in"', 'length = "in", results = "SI"')
     )
     assert [part.pages for part in one] == [part.pages for part in other]
+
+
+def test_the_table_of_the_most_positions_stays_above_the_foot_and_is_legible():
+    """48 positions and three dead points; no number touches its neighbour."""
+    mechanism = posed(load("pump"), count=48)
+    for part in hand_out(mechanism, "positions", "en"):
+        for page in part.pages:
+            page.check()
+            cells = [m for m in page.marks if isinstance(m, Text) and m.cls == "table"]
+            cells = [m for m in cells if m.name == "positions" and m.anchor == "middle"]
+            assert len(cells) >= 96
+            rows: dict[float, list[Text]] = {}
+            for cell in cells:
+                rows.setdefault(round(cell.y, 3), []).append(cell)
+            for row in rows.values():
+                ends = [
+                    (min(x for x, _ in c.corners()), max(x for x, _ in c.corners())) for c in row
+                ]
+                assert all(right < left for (_, right), (left, _) in pairwise(sorted(ends)))
+            foot = next(m for m in page.marks if isinstance(m, Text) and m.name == "witness")
+            above = [
+                m for m in page.marks if isinstance(m, Text) and m.name in ("legend", "positions")
+            ]
+            assert max(m.corners()[2][1] for m in above) <= foot.corners()[0][1] + 0.3

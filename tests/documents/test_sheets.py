@@ -64,8 +64,6 @@ HEAD = 0.41
 """Longest arrowhead, in parts of its vector."""
 WIDER = 2.2
 """Least width of an arrowhead, in parts of its shaft's."""
-TINY = 0.5
-"""Vectors shorter than this, in mm, are named at the foot of their field."""
 NEAR = 6.0
 """Farthest a label without a leader stands from what it names, in mm."""
 INSIDE = 1.1
@@ -113,8 +111,9 @@ def test_nothing_leaves_the_frame_or_its_field(page):
 
 
 def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
-    """But for letters of triangles that no sentence says, a letter or two of small ones that stand
-    at one pin with many, and points of many trial plans, whose names the foot says to be moved."""
+    """But for vectors that the foot lists, letters of triangles that no sentence says, a letter or
+    two of small ones that stand at one pin with many, and points of many trial plans, whose names
+    the foot says to be moved."""
     faults, left_out = [], []
     told_of = " ".join(each.markup for each in sentences(page.drawing))
     for field in FIELDS:
@@ -131,13 +130,13 @@ def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
         for mark in subjects:
             said, names = labels.get(mark.name, []), names_of(page, mark)
             noted = any(name in page.notes(field) for name in names)
-            tiny = is_vector(mark) and length_of(mark) < TINY and noted
+            noted = noted and is_vector(mark) and not said
             if not said and mark.cls == "point construction":
                 sayings = (re.escape(name) + "(?![_′″‴])" for name in names)
                 left_out += [mark.name for each in sayings if re.search(each, told_of)]
             elif not said and mark.cls == f"point {OWN_LINES}":
                 assert page.drawing.words("page.trials_moved") in page.notes(field)
-            elif not tiny and (len(said) != 1 or said[0] not in names):
+            elif not noted and (len(said) != 1 or said[0] not in names):
                 faults.append(f"{field}: {told(mark)} is named {said}")
     assert not faults, "\n".join(faults)
     assert len(left_out) <= 2, left_out

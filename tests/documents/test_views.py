@@ -15,7 +15,16 @@ from graphkin.construction.guides.slide_symbols import frame_guides
 from graphkin.construction.links.wheel_symbols import straight_tracks
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out
-from graphkin.documents.step_pages import noted, spans, step_lines, text_block, to_do
+from graphkin.documents.step_pages import (
+    STROKES,
+    StepPart,
+    noted,
+    spans,
+    step_lines,
+    stroke_of,
+    text_block,
+    to_do,
+)
 from graphkin.drawing.field import A3
 from graphkin.drawing.marks import CircleMark, Mark, SharedLetter, Text, reach
 from graphkin.drawing.richtext import signs
@@ -44,8 +53,13 @@ def material(name):
 
 @cache
 def pages(name, view):
-    """The pages of its sheets in a view."""
-    return {sheet.kind: sheet.pages for sheet in drawn_sheets(material(name), view)}
+    """The pages of its sheets in a view; of those step by step, the pages that have a step."""
+    found = {sheet.kind: sheet.pages for sheet in drawn_sheets(material(name), view)}
+    if view != "steps":
+        return found
+    return {
+        k: [p for p in some if any(m.name == "step" for m in p.marks)] for k, some in found.items()
+    }
 
 
 def without_now(mark):
@@ -84,7 +98,7 @@ def place_of(mark):
 @pytest.mark.parametrize("name", SOME)
 def test_the_last_page_shows_all_that_the_key_draws(name):
     for kind, steps in pages(name, "steps").items():
-        (key,) = pages(name, "key")[kind]
+        key, *_ = pages(name, "key")[kind]
         assert in_fields(steps[-1]) == in_fields(key)
 
 
@@ -118,8 +132,8 @@ def test_each_page_says_its_sentence_and_draws_it(name):
         steps = pages(name, "steps")[drawing.kind]
         said, done = sentences(drawing), 0
         for page in steps:
-            first, last, all_ = spanned(page)
-            assert (first, all_) == (done + 1, len(said))
+            first, last, all_, letter = spanned(page)
+            assert (first, all_) == (done + (letter in ("", "a")), len(said))
             words = " ".join(mark.markup for mark in page.marks if mark.name == "sentence")
             assert all(f"{n}. " in words for n in range(first, last + 1)) or first == last
             assert new_on(page) or last == all_, words
@@ -136,11 +150,21 @@ def test_no_page_but_the_last_has_nothing_new(name):
 
 
 def spanned(page):
-    """The first and the last sentence of a page, and how many there are."""
+    """The first and the last sentence of a page, how many there are, and the page's letter."""
     (step,) = (mark.markup for mark in page.marks if mark.name == "step")
-    first, last, all_ = re.fullmatch(r"Steps? (?:(\d+)–)?(\d+) of (\d+)", step).groups()
+    found = re.fullmatch(r"Steps? (?:(\d+)–)?(\d+)([a-z]*) of (\d+)", step)
+    first, last, letter, all_ = found.groups()
     assert (first is None) is step.startswith("Step ")
-    return int(first or last), int(last), int(all_)
+    return int(first or last), int(last), int(all_), letter
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_page_draws_three_strokes_at_most(name):
+    """Those of one sentence follow each other in the order in which they are drawn."""
+    for steps in pages(name, "steps").values():
+        for page in steps:
+            new = [mark for mark in page.marks if NOW in mark.cls.split()]
+            assert len({stroke_of(mark) for mark in new} - {None}) <= STROKES
 
 
 def test_however_long_a_sentence_is_nothing_that_is_done_stands_below_the_field():
@@ -148,7 +172,7 @@ def test_however_long_a_sentence_is_nothing_that_is_done_stands_below_the_field(
     done, lowest = Sentence(1, "", "join A with B"), 0.0
     for long in range(1, 2400, 50):
         said = [*[done] * 20, Sentence(2, "", "mm " * long)]
-        marks = [*text_block(drawing, said, 20, 20, step_lines(A3))]
+        marks = [*text_block(drawing, said, 20, StepPart(20, ""), step_lines(A3))]
         words = [mark for mark in marks if isinstance(mark, Text)]
         below = [mark.y for mark in words if mark.name not in ("step", "sentence")]
         assert max(below, default=0.0) <= A3.below[3]
@@ -255,7 +279,7 @@ def test_sentences_that_draw_nothing_share_a_page_as_far_as_they_have_room():
 def test_sentences_to_do_stay_above_the_title_block_and_beside_it(many):
     """They are large as long as all are above it; none reaches over its frame or the mark."""
     said = [Sentence(n, "", "of what is computed alone " * 14) for n in range(many)]
-    marks = [*text_block(material("pump")[0], said, 0, many - 1, step_lines(A3))]
+    marks = [*text_block(material("pump")[0], said, 0, StepPart(many - 1, ""), step_lines(A3))]
     words = [mark for mark in marks if isinstance(mark, Text) and mark.name == "sentence"]
     assert {mark.height for mark in words} == {3.5 if many < 3 else 2.5}
     left, top, *_ = A3.title_block

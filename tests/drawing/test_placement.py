@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from itertools import combinations, pairwise
+from math import dist
 from types import SimpleNamespace
 
 import numpy as np
@@ -15,7 +16,7 @@ from shapely import LineString, MultiLineString, Point, box
 
 from graphkin.drawing import clashes, placement
 from graphkin.drawing.clashes import PAD
-from graphkin.drawing.clearance import Blots, Subjects, distance_cost, tries
+from graphkin.drawing.clearance import LONGEST, Blots, Subjects, distance_cost, tries
 from graphkin.drawing.placement import CLEAR, Segment, Spot, Wish, place
 from graphkin.drawing.shapes import LOOSE, merged, segments, separation
 
@@ -194,12 +195,15 @@ def test_what_is_ruled_out_at_a_glance_is_too_near_a_line(ends, at, size):
     assert (apart[hit] < CLEAR).any(axis=1).all()
 
 
-def test_a_label_walled_in_far_around_still_finds_a_place():
-    walls = [(k, 12.0, k, 48.0) for k in np.arange(20, 61, 2.0)]
+def test_a_label_walled_in_around_still_finds_a_place_within_the_longest_leader():
+    walls = [(k, 18.0, k, 42.0) for k in np.arange(20, 61, 2.0)]
     wish = Wish(6, 3, (40, 30))
     (spot,) = place([wish], walls, NONE, FIELD)
     assert spot.free
-    assert spot.leader
+    assert spot.leader and dist(*spot.leader) <= LONGEST
+    farther = [(k, 10.0, k, 50.0) for k in np.arange(20, 61, 2.0)]
+    (spot,) = place([wish], farther, NONE, FIELD)
+    assert not spot.free
     (spot,) = place([replace(wish, optional=True)], walls, NONE, FIELD)
     assert not spot.free  # so far no place is looked for
 
@@ -210,6 +214,15 @@ def test_a_line_drawn_there_and_back_is_not_merged_away():
     (spot,) = place([wish], [there, (*there[2:], *there[:2])], NONE, FIELD)
     line = LineString([there[:2], there[2:]])
     assert spot.free and line.distance(ink(wish, spot)) >= CLEAR - 1e-9
+
+
+def test_a_spare_label_has_no_place_rather_than_a_leader_across_a_strong_line():
+    walls = [(k, 20.0, k, 40.0) for k in np.arange(20, 61, 2.0)]
+    ring = [(37, 27, 43, 27), (43, 27, 43, 33), (43, 33, 37, 33), (37, 33, 37, 27)]
+    wish = Wish(6, 3, (40, 30))
+    for strong, spare in ((NONE, True), (ring, False), (ring, True)):
+        (spot,) = place([replace(wish, spare=spare)], walls, NONE, FIELD, strong=strong)
+        assert spot.free == (not spare or strong is NONE)
 
 
 def test_labels_keep_to_a_field_of_their_own_each():
@@ -283,7 +296,7 @@ def test_no_more_places_are_offered_than_a_page_may_have(monkeypatch):
 
 def subject(ends: tuple[float, ...], radius: float = 0.0) -> Subjects:
     """One label of 6 by 3 mm, 1 mm from what it names, that wishes to stand to the right."""
-    columns = (ends, (3.0, 1.5), 1.0, radius, (1.5, 0.0), ends[:2] != ends[2:])
+    columns = (ends, (3.0, 1.5), 1.0, radius, (1.5, 0.0), ends[:2] != ends[2:], False)
     return Subjects(*(np.array([column]) for column in columns))
 
 

@@ -21,20 +21,25 @@ from graphkin.scene.quantity import Quantity, exact
 
 
 def loaded(mechanism: Mechanism, rng: random.Random) -> Mechanism:
-    """The mechanism with a mass on most links, gravity, a force and a moment."""
+    """The mechanism with a mass on most links, gravity, a force and a moment.
+
+    They are on links and points of the scene, not on those that stand for a cam.
+    """
     scene = mechanism.scene
+    links = {
+        name: [point for point in link.points if point not in scene.cam_centres]
+        for name, link in scene.links.items()
+        if name not in scene.cam_links
+    }
     masses = {}
-    links = {name: link for name, link in scene.links.items() if name not in scene.cam_links}
-    centres = {*scene.cam_centres}
-    for name, link in links.items():
+    for name, points in links.items():
         if rng.random() < 0.8:
             inertia = number(rng, 0.01, 2, "kg·m²") if rng.random() < 0.8 else None
-            centre = rng.choice([p for p in link.points if p not in centres])
-            masses[name] = Mass(number(rng, 0.1, 9, "kg"), centre, inertia)
-    on, turned = rng.choice([*links.values()]), rng.choice([*links])
+            masses[name] = Mass(number(rng, 0.1, 9, "kg"), rng.choice(points), inertia)
+    on, turned = rng.choice([*links]), rng.choice([*links])
     force = number(rng, -900, 900, "N"), number(rng, -900, 900, "N")
     loads = (
-        Load(on.name, rng.choice([p for p in on.points if p not in centres]), force, None),
+        Load(on, rng.choice(links[on]), force, None),
         Load(turned, "", None, number(rng, -90, 90, "N·m")),
     )
     gravity = exact(0, "m/s²"), exact("-9.81", "m/s²")

@@ -96,28 +96,11 @@ WHEELS = sorted(
 )
 
 
-def loads_on(mechanism: Mechanism) -> set[str]:
-    """The links and points with masses and loads."""
-    given = mechanism.scene.forces
-    points = {load.at for load in given.loads if load.at} | {
-        e.centre for e in given.masses.values()
-    }
-    return points | {load.link for load in given.loads} | {*given.masses}
-
-
 @pytest.mark.parametrize("name", WHEELS)
 def test_virtual_power_and_the_frame_agree_wherever_forces_are_determined(name):
     """All loads, inertia forces and reactions of the frame together do not push the mechanism."""
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
-    mechanism = Mechanism(read_text(text, name, None, {}))
-    scene = mechanism.scene
-    own = {link for link in scene.links if link not in scene.cam_links}
-    made = next(
-        made
-        for seed in range(99)
-        for made in [loaded(mechanism, random.Random(f"{name} {seed}"))]
-        if loads_on(made) <= own | ({*scene.points} - {*scene.cam_centres})
-    )
+    made = loaded(Mechanism(read_text(text, name, None, {})), random.Random(name))
     try:
         found, verdict = made.forces()
     except StructureError as error:

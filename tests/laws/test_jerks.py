@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.loops.jerks import Jerks
 from graphkin.loops.witness import differences
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
@@ -167,14 +166,63 @@ def test_a_wrong_jerk_is_refused(monkeypatch):
     solution = mechanism.solve()
     assert mechanism.witness(solution).agrees
     original = differences.jerks
-    off = lambda solved: Jerks((found := original(solved)).found * (1 + 1e-6), found.bound)  # noqa: E731
+
+    def off(solved):
+        found = original(solved)
+        return replace(found, found=found.found * (1 + 1e-6))
+
     monkeypatch.setattr(differences, "jerks", off)
     verdict = mechanism.witness(solution)
     assert not verdict.agrees
     assert verdict.quantity.endswith("jerk")
 
 
-@pytest.mark.parametrize(("name", "wrong"), [("shaper", "A@3"), ("cam-roller", "K")])
+@pytest.mark.parametrize("name", ["shaper", "geneva-wheel", "oscillating-slide"])
+def test_the_jerk_under_a_point_is_that_of_a_point_fixed_to_the_link(name):
+    """A rigid body has j = j_O + (iε̇ - 3ωε - iω³)·r; ε̇ is taken from neighbouring positions."""
+    mechanism = example(name)
+    under = next(p for p in mechanism.scene.ask.velocity if "@" in p)
+    point, link = under.split("@")
+    scene = mechanism.scene
+    origin = scene.links[link].points[0]
+    assert origin in scene.fixed_points
+    asked = replace(scene.ask, jerk=(under,), epsilon=(link,), velocity=(under, point))
+    (driver,) = scene.drivers
+    rate = float(driver.speed.si(scene.values))
+
+    def at(turn: float):
+        here = float(driver.position.number(scene.values))
+        moved = replace(driver, position=replace(exact(here + turn), unit="deg"))
+        return Mechanism(replace(scene, ask=asked, drivers=(moved,))).solve()
+
+    here = at(0.0)
+    step = 0.01
+    epsilons = [at(k * step).links[link].epsilon for k in (-2, -1, 1, 2)]
+    twist = np.dot(epsilons, [1, -8, 8, -1]) / (12 * np.radians(step)) * rate
+    motion = here.links[link]
+    arm = here.points[point].position - here.points[origin].position
+    swing = 1j * twist - 3 * motion.omega * motion.epsilon - 1j * motion.omega**3
+    assert here.points[under].jerk == pytest.approx(swing * arm, rel=1e-7)
+    own = Mechanism(replace(scene, ask=asked))
+    assert own.witness(own.solve()).agrees
+
+
+def test_a_wrong_jerk_under_a_point_is_refused(monkeypatch):
+    scene = example("shaper").scene
+    mechanism = Mechanism(replace(scene, ask=replace(scene.ask, jerk=("A@3",))))
+    solution = mechanism.solve()
+    assert mechanism.witness(solution).agrees
+    original = differences.jerks
+
+    def off(solved):
+        found = original(solved)
+        return replace(found, swing=found.swing * (1 + 1e-6))
+
+    monkeypatch.setattr(differences, "jerks", off)
+    assert mechanism.witness(solution).quantity == "points.A@3.jerk"
+
+
+@pytest.mark.parametrize(("name", "wrong"), [("cam-roller", "K")])
 def test_points_of_no_link_have_no_jerk(name, wrong):
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
     with pytest.raises(SceneError, match=r"ask\.jerk"):

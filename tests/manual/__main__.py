@@ -8,7 +8,7 @@ from __future__ import annotations
 from concurrent.futures import ProcessPoolExecutor
 
 from tests.manual.kinds import KINDS
-from tests.manual.made import PICTURES, made, pages, picture
+from tests.manual.made import PICTURES, PICTURES_OF_PAGES, made, pages, picture
 
 
 def main() -> None:
@@ -22,10 +22,17 @@ def main() -> None:
     names = [name for members in KINDS.values() for name in members]
     with ProcessPoolExecutor(2) as pool:
         for name, svg in zip(names, pool.map(picture, names), strict=True):
-            path = PICTURES / f"{name}.svg"
-            if not path.exists() or path.read_text(encoding="utf-8") != svg:
-                path.write_text(svg, encoding="utf-8")
-                print(path)
+            keep(name, svg)
+    for name, picture_of in PICTURES_OF_PAGES.items():
+        keep(name, picture_of())
+
+
+def keep(name: str, svg: str) -> None:
+    """Write a picture, and name it where it changed."""
+    path = PICTURES / f"{name}.svg"
+    if not path.exists() or path.read_text(encoding="utf-8") != svg:
+        path.write_text(svg, encoding="utf-8")
+        print(path)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from html import escape
 from importlib import import_module
@@ -20,11 +20,14 @@ from graphkin.classroom.lab.new_lab import causes, kinds
 from graphkin.cli.main import app
 from graphkin.diagnosis.effects import effects
 from graphkin.documents.scaling import sheet_motion
-from graphkin.documents.sheet_documents import drawings_of, language_of, proved
+from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
+from graphkin.drawing.marks import Page
+from graphkin.drawing.richtext import font_face
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
-from graphkin.scene.house import HEADINGS, HOUSE_KEYS
+from graphkin.scene.house import HEADINGS, HOUSE_KEYS, house_of
+from graphkin.scene.read_scene import read_scene
 from graphkin.studio.panels import MECHANISM, Memory, edges_of, panels
 from graphkin.text.school_signs import NAMES, SCHOOLS
 from graphkin.writers.svg import LETTERING, element, rules
@@ -270,16 +273,71 @@ def picture(name: str) -> str:
     drawings = drawings_of(mechanism, verdict, language_of(mechanism, "en"))
     panel, _ = next(panels(drawings, "", "velocity", Memory(), quick=False))
     assert panel.name == MECHANISM
-    left, top, right, bottom = edges_of(panel.marks)
     title = escape(mechanism.scene.titles.get("en", mechanism.scene.title))
+    return svg_of(edges_of(panel.marks), title, panel.marks, INK)
+
+
+def svg_of(edges: tuple[float, float, float, float], title: str, marks: Any, ink: Ink) -> str:
+    """Marks as an SVG of its own, which shows what lies between left, top, right and bottom."""
+    left, top, right, bottom = edges
     view = f"{left:g} {top:g} {right - left:g} {bottom - top:g}"
     size = f'width="{right - left:g}mm" height="{bottom - top:g}mm"'
-    style = "\n".join([LETTERING, *rules(panel.marks, INK)])
+    style = "\n".join([LETTERING, *rules(marks, ink)])
     head = f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="{view}" role="img">'
     named = f"<title>{title}</title>\n<style>{style}</style>"
     ground = f'<rect x="{left:g}" y="{top:g}" width="100%" height="100%" fill="#fff"/>'
-    marks = (re.sub(r' data-[a-z]+="[^"]*"', "", element(mark)) for mark in panel.marks)
-    return "\n".join([head, named, ground, *marks, "</svg>\n"])
+    drawn = (re.sub(r' data-[a-z]+="[^"]*"', "", element(mark)) for mark in marks)
+    return "\n".join([head, named, ground, *drawn, "</svg>\n"])
+
+
+SCHOOLS_PAGE = MANUAL / "howto" / "five-schools.md"
+HOUSE_BLOCK = re.compile(r"^```toml (\w+)\.toml\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+ACROSS, APART, CAPTION = 2, 10.0, 14.0
+"""Sheets in a row of the picture, the space between them, and that for a name above each, in mm."""
+
+
+def school_sheet(text: str) -> tuple[Page, Ink]:
+    """The acceleration sheet of the pump by a house.toml, and its ink."""
+    house = house_of(text, str(MANUAL))
+    scene = read_scene(load("pump", n=7).scene.source, {"n": 7}, house)
+    parts = hand_out(Mechanism(scene), "key", house.language)
+    return next(part for part in parts if part.kind == "acceleration").pages[0], house.ink
+
+
+def five_schools() -> str:
+    """The sheets of the schools of the page, side by side, each with the name of its file."""
+    found = HOUSE_BLOCK.findall(SCHOOLS_PAGE.read_text(encoding="utf-8"))
+    parts, y, row = list[str](), 0.0, 0.0
+    for i, (name, text) in enumerate(found):
+        page, ink = school_sheet(text)
+        x = (i % ACROSS) * (440.0 + APART)
+        if i and i % ACROSS == 0:
+            y, row = y + row + CAPTION + APART, 0.0
+        row = max(row, page.height)
+        own = svg_of((0.0, 0.0, page.width, page.height), name, page.marks, ink)
+        own = own.replace("<svg ", f'<svg x="{x:g}" y="{y + CAPTION:g}" ', 1)
+        own = scoped(own.replace('mm"', '"'), f"school{i}")
+        parts.append(
+            f'<text x="{x + 4:g}" y="{y + 10:g}" font-size="9" font-family="Graphkin Sans">{name}.toml</text>\n{own}'
+        )
+    wide, high = 440.0 * ACROSS + APART, y + CAPTION + row
+    view = f'width="{wide / 2:g}mm" height="{high / 2:g}mm" viewBox="0 0 {wide:g} {high:g}"'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" {view} role="img">'
+    ground = '<rect width="100%" height="100%" fill="#fff"/>'
+    faces = "\n".join(font_face(italic=italic) for italic in (False, True))
+    return "\n".join([head, f"<style>{faces}</style>", ground, *parts, "</svg>\n"])
+
+
+def scoped(svg: str, name: str) -> str:
+    """A picture whose rules of style hold in it alone, since pictures in one file share theirs."""
+    head, style, rest = re.split(r"<style>|</style>", svg)
+    own = re.sub(r"(?m)^(?=[.a-z][^@{]*\{)", f".{name} ", style)
+    own = re.sub(r",\s*(?=\.)", f", .{name} ", own)
+    return f"{head}<style>{own}</style>".replace("<svg ", f'<svg class="{name}" ', 1) + rest
+
+
+PICTURES_OF_PAGES: Mapping[str, Callable[[], str]] = {"five-schools": five_schools}
+"""The pictures of pages other than the gallery."""
 
 
 MAKERS = {

@@ -27,7 +27,7 @@ from tests.examples.document import (
     with_part,
 )
 from tests.manual.kinds import KINDS
-from tests.manual.made import MANUAL, PICTURES, made, picture
+from tests.manual.made import MANUAL, PICTURES, PICTURES_OF_PAGES, made, picture
 from tests.manual.made import pages as made_pages
 from tests.manual.running_pages import FIRST, examples, run
 from tests.running import ran
@@ -236,3 +236,9 @@ def test_help_explains_a_command_and_names_no_long_list() -> None:
     assert "graphkin variants --help" in ran("help", "variants").stdout
     assert ran("help", "zzzz").stderr.count("\n") == 2
     assert len(ran("help", "zzzz").stderr) < 120
+
+
+@pytest.mark.parametrize("name", PICTURES_OF_PAGES)
+def test_a_picture_of_a_page_is_what_the_page_says(name: str) -> None:
+    kept = (PICTURES / f"{name}.svg").read_text(encoding="utf-8")
+    assert PICTURES_OF_PAGES[name]() == kept, "run python -m tests.manual"

@@ -17,12 +17,14 @@ from hypothesis import strategies as st
 from graphkin.cli.report.cycle_report import cycle_lines, cycle_table
 from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.construction.links.link_shapes import hull
+from graphkin.drawing.marks import Polyline, Text
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.curves.over_driver import pictures, sampled
+from graphkin.motion.curves.charts import cut, numeral, ticks_of
+from graphkin.motion.curves.curve_files import figures, picture_files
+from graphkin.motion.curves.over_driver import pictures, sampled, span_of
 from graphkin.motion.curves.plane_paths import box_of, dotted, near_box
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
-from graphkin.writers.plot_style import look, span_of
 from tests.motion.linkages import five_bar, four_bar, slider_crank
 from tests.running import Run
 from tests.scene_files import scene_text
@@ -154,29 +156,102 @@ def test_a_follower_between_dead_points_swings():
     assert "link 1 (line O-A) swings 188.939°" in text
 
 
-def test_words_stand_to_the_right_of_their_lines_but_for_the_last():
-    """At the end of the range there is room on the left alone."""
-    found = sampled(cycle(load("pump", n=7), steps=24), 24)
-    with look():
-        told = pictures(found)["velocities"]().axes[0].texts
-    sides = {text.xy[0]: text.xyann[0] > 0 for text in told}
-    assert len(sides) >= 3
-    assert [at for at, right in sides.items() if not right] == [max(sides)]
+def test_words_along_a_line_stay_clear_of_the_curves():
+    found = sampled(cycle(load("pump", n=7), steps=24))
+    marks = pictures(found)["velocities"]().marks
+    curves = [m for m in marks if isinstance(m, Polyline) and m.cls.startswith("curve")]
+    assert len(curves) >= 3
+    told = [m for m in marks if isinstance(m, Text) and m.name == "upright"]
+    assert [m.markup for m in told] == ["dead point", "dead point", "scene's position"]
+    for text in told[:2]:  # no place beside the scene's position is as long as its words
+        area = shapely.box(*shapely.MultiPoint(text.corners()).bounds)
+        assert not any(shapely.LineString(curve.points).intersects(area) for curve in curves)
 
 
 @pytest.mark.parametrize(("name", "unit", "most"), [("roller", "mm", 20), ("rocker", "deg", 24)])
 def test_a_picture_of_a_cam_shows_the_rise_of_its_law_in_its_unit(name, unit, most):
     """The rise of a slide in the unit of the scene, that of a lever in degrees."""
     found = sampled(cycle(load(f"{SCENES}/cam-{name}.toml"), steps=24))
-    with look():
-        lift, pressure = pictures(found)["cams"]().axes
-    rise = lift.lines[0].get_ydata()
-    assert (lift.get_ylabel(), pressure.get_ylabel()) == (unit, "deg")
-    assert (rise.min(), rise.max()) == pytest.approx((0, most), abs=1e-9)
+    marks = pictures(found)["cams"]().marks
+    units = [m.markup for m in marks if isinstance(m, Text) and m.name == "unit"]
+    assert units == [unit, "deg"]
+    rise = read_off(marks, "*s*_{2}" if name == "roller" else "*ψ*_{2}")
+    assert (rise.imag.min(), rise.imag.max()) == pytest.approx((0, most), abs=0.02)
     if name == "roller":  # base 40, roller 10, offset 10: tan α = (s' - e)/(s + √(50² - e²))
-        slope = np.gradient(rise, np.radians(found.at))
-        angle = np.degrees(np.arctan((slope - 10) / (rise + np.sqrt(50**2 - 10**2))))
-        assert pressure.lines[0].get_ydata() == pytest.approx(abs(angle), abs=0.02)
+        lift = np.asarray(found.cycle.profiles["2"].rise.at) * 1000
+        slope = np.gradient(lift, np.radians(found.at))
+        angle = np.degrees(np.arctan((slope - 10) / (lift + np.sqrt(50**2 - 10**2))))
+        drawn = read_off(marks, "*α*_{2}")
+        expected = np.interp(drawn.real, found.at, abs(angle))
+        assert drawn.imag == pytest.approx(expected, abs=0.15)
+
+
+def read_off(marks, label):
+    """The points of a curve as a reader takes them from its axes: u + 1j * value."""
+    curve = [m for m in marks if isinstance(m, Polyline) and m.name == label]
+    top, low = (
+        min(y for m in curve for _, y in m.points),
+        max(y for m in curve for _, y in m.points),
+    )
+    ticks = [m for m in marks if isinstance(m, Text) and m.name == "tick"]
+    beside = [m for m in ticks if m.anchor == "end" and top - 9 < m.y < low + 9]
+    below = [m for m in ticks if m.anchor == "middle"]
+
+    def scale(texts, places):
+        values = [float(m.markup.replace("−", "-")) for m in texts]
+        return np.polynomial.Polynomial.fit(places, values, 1)
+
+    across = scale(below, [m.x for m in below])
+    upright = scale(beside, [m.y - 0.8 for m in beside])
+    points = np.array([point for m in curve for point in m.points])
+    return across(points[:, 0]) + 1j * upright(points[:, 1])
+
+
+def test_a_curve_read_off_its_axes_is_what_was_computed():
+    found = sampled(cycle(load("offset-slider-crank"), steps=24))
+    drawn = read_off(pictures(found)["velocities"]().marks, "*v*_{B}")
+    assert len(drawn) > 100
+    speed = np.abs(found.solution.points["B"].velocity)
+    assert np.abs(speed).max() == pytest.approx(drawn.imag.max(), rel=2e-3)
+
+
+def test_every_figure_of_every_kind_is_a_page_within_its_edges():
+    for name in ("pump", f"{SCENES}/four-bar-crank-rocker.toml", f"{SCENES}/gears-planet.toml"):
+        for _, drawn in figures(sampled(cycle(load(name), steps=24), 90)):
+            drawn().check()
+
+
+def test_the_same_cycle_gives_the_same_bytes_in_both_formats():
+    found = cycle(load("offset-slider-crank"), steps=24)
+    once, again = (picture_files(found, "x", ("svg", "png")) for _ in range(2))
+    assert once == again
+    assert {name[-4:] for name in once} == {".svg", ".png"}
+    assert all(
+        data[:8] == b"\x89PNG\r\n\x1a\n" for name, data in once.items() if name[-3:] == "png"
+    )
+
+
+@given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6))
+def test_numbers_along_an_axis_are_few_and_round(low, size):
+    found = ticks_of(low, low + size)
+    assert 1 <= len(found) <= 7
+    assert all(low - 1e-6 * size <= value <= low + size * (1 + 1e-6) for value in found)
+
+
+def test_numbers_along_an_axis_have_one_zero_and_a_true_minus():
+    assert [numeral(value) for value in (-0.0, 0.0, -2.5, 1e-7)] == ["0", "0", "−2.5", "1e−07"]
+    for name in ("cam-roller", "gears-planet"):
+        found = sampled(cycle(load(f"{SCENES}/{name}.toml"), steps=24), 90)
+        for _, drawn in figures(found):
+            ticks = [m.markup for m in drawn().marks if isinstance(m, Text) and m.name == "tick"]
+            assert ticks and "−0" not in ticks
+
+
+def test_an_area_is_cut_at_an_edge():
+    """A square over the edge x = 1 loses its left half."""
+    square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]
+    found = shapely.Polygon(cut(square, 0, 1, 1.0))
+    assert found.equals(shapely.box(1, 0, 2, 2))
 
 
 def test_a_path_has_a_dot_at_every_twelfth_of_a_turn():

@@ -152,7 +152,7 @@ def read_again(ink: Any, rng: Any) -> Any:
     size = ink.shape[1] // FINER, ink.shape[0] // FINER
     dark = cv2.resize(ink, size, interpolation=cv2.INTER_AREA)
     dark = cv2.GaussianBlur(dark, (0, 0), rng.uniform(0.3, 1.1))
-    dark = dark + rng.normal(0, rng.uniform(0, 0.06), dark.shape).astype(np.float32)
+    dark = dark + rng.normal(0, rng.uniform(0, 0.09), dark.shape).astype(np.float32)
     lines = cv2.GaussianBlur(dark, (0, 0), FINE * DENSITY)
     lines -= cv2.GaussianBlur(dark, (0, 0), COARSE * DENSITY)
     usual = max(float(np.percentile(lines, 97)), 0.05) * rng.uniform(0.9, 1.2)

@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import random
+from math import pi
 from pathlib import Path
 from shutil import copytree
 from threading import Thread
@@ -23,7 +24,16 @@ from graphkin.text.errors import PageError
 from tests.browser.opening import barred, heard
 from tests.running import ran
 
-NAMES = ("Ana Pop", "Ion Marin", "Maria Ilie", "Dan Luca", "Elena Rusu", "Radu Stan", "Ioana Dinu")
+NAMES = (
+    "Ana Pop",
+    "Ion Marin",
+    "Maria Ilie",
+    "Dan Luca",
+    "Elena Rusu",
+    "Radu Stan",
+    "Ioana Dinu",
+    "Mihai Sava",
+)
 OFF = 1.37
 """The factor of the like answers: no cause makes it."""
 
@@ -34,7 +44,7 @@ def ids() -> list[str]:
 
 @pytest.fixture(scope="module")
 def a_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Seven students: three with a like mistake, two with one odd cell, two with one sheet."""
+    """Three with a like mistake, two with one odd cell, two with one sheet, one with a cause."""
     folder = tmp_path_factory.mktemp("desk")
     rows = "".join(
         f"{who},{i},{name}\n" for i, (who, name) in enumerate(zip(ids(), NAMES, strict=True), 1)
@@ -61,6 +71,10 @@ def a_class(tmp_path_factory: pytest.TempPathFactory) -> Path:
         every[i]["v_C"] = f" {every[i]['v_C'].replace('.', ',,')}"
     every[3]["v_C"] = every[4]["v_C"]
     every[6] = every[5]
+    for field, text in every[7].items():
+        power = {"v": 1, "o": 1, "a": 2, "e": 2}[field[0]]
+        if not field.endswith(("_mm", "_sense")):
+            every[7][field] = f"{(30 / pi) ** power * float(text):.4g}"
     table = io.StringIO()
     writer = csv.DictWriter(table, ["id", *(item.field for item in opened.book.form)])
     writer.writeheader()
@@ -157,6 +171,7 @@ def test_like_cells_are_read_once_and_marked(a_class: Path, report: Path) -> Non
     assert "your lecturer read this as" in feedback(report, ids()[4])
     assert str(written).strip() in feedback(report, ids()[4])
     assert the(desk(report), "cell")["state"] == "decided"
+    assert "decisions: 2 decided, 0 still open" in graded(a_class, report)
 
 
 def test_a_reading_is_of_the_cell_that_was_read(a_class: Path, report: Path) -> None:
@@ -222,6 +237,30 @@ def test_an_appeal_is_asked_answered_and_kept(a_class: Path, report: Path) -> No
     graded(a_class, report)
     assert "it was right already" in feedback(report, ids()[5])
     assert "being looked at: but why" in feedback(report, ids()[5])
+
+
+def test_an_appeal_on_what_a_cause_explains_is_about_its_cost(a_class: Path, report: Path) -> None:
+    """The field has all its points already; the sum shows what the desk decided."""
+    who = ids()[7]
+    appeal = f"id;field;text\n{who};v_B;rev/min were on the board\n{who};total;and so for all\n"
+    (report / "appeals.csv").write_text(appeal, encoding="utf-8")
+    graded(a_class, report)
+    session = desk(report)
+    item, whole = (session.item(each["name"]) for each in listed(session, "appeal"))
+    most = item["sums"][0].split(" of ")[1].split()[0]
+    free = f"no deduction: {most} points for the whole form"
+    assert "rev/min" in item["causes"][0]
+    assert "after a deduction of" in item["sums"][0]
+    assert item["choices"] == whole["choices"] == ["the mark stays", free]
+    told = rule(session, item, choice=1, reason="the board said so")
+    assert told["state"] == "decided"
+    assert session.item(item["name"])["sums"] == [f"the whole form earns {most} of {most} points"]
+    rule(session, session.item(whole["name"]), points="7")
+    assert session.item(whole["name"])["sums"] == [f"the whole form earns 7 of {most} points"]
+    session.undo()
+    graded(a_class, report)
+    assert marks(report)[who]["points"] == most
+    assert "the board said so" in feedback(report, who)
 
 
 # --- several markers -----------------------------------------------------------------------------
@@ -388,6 +427,10 @@ def test_a_class_is_decided_with_single_keys(report: Path, chromium: Any) -> Non
 def decided_by_keys(page: Any, report: Path) -> None:
     """One key decides and shows the next; one takes it back; points and a reason are typed."""
     left, first = (page.locator(f"#{name}").text_content() for name in ("open", "card-title"))
+    page.keyboard.press("r")
+    selected = "() => window.getSelection().toString() === document.activeElement.value"
+    assert page.evaluate(selected) and page.evaluate("document.activeElement.id") == "reading"
+    page.keyboard.press("Escape")
     press(page, "1")
     assert page.locator("#open").text_content() != left
     press(page, "u")

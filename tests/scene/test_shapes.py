@@ -165,7 +165,6 @@ BROKEN = {
     'O-A = 3\nslide = { on = 0, through = "O" }': ("slide", "unknown table", "mean slides?"),
     "O-A = 3\nrols = [{ on = 0 }]": ("rols", "unknown table", "did you mean rolls?"),
     'O-A = 3\nwheel = { centre = "O" }': ("wheel", "no radius", "radius = …, or teeth"),
-    'O-A = 3\nwheel = { centre = "O", teeth = 20 }': ("wheel", "teeth without a module", ""),
     'O-A = 3\nwheel = { centre = "O", teeth = 2.5, module = 1 }': ("wheel.teeth", "2.5", "whole"),
     'O-A = 3\nwheel = { centre = "X", radius = 2 }': ("wheel.centre", "X is no point of this", ""),
     'O-A = 3\nwheel = { centre = "O", radius = -2 }': ("wheel.radius", "-2", "above 0"),

@@ -6,8 +6,8 @@ that the test states (``within``). The exact one comes from a closed form or fro
 40 digits.
 
 What a book prints we know from quotations of it and from FOSSEE's Python Textbook Companions
-(Khurmi, Bevan, Meriam, Hibbeler, McLean, Tayal), "our source" where a test says so; most of the
-figures we have not seen.
+(Khurmi, Bevan, Sarkar, Meriam, Hibbeler, McLean, Beer, Tayal), "our source" where a test says so;
+most of the figures we have not seen.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from decimal import Decimal
 from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
+from tests.laws.exact_forces import far_from_exact
 
 IN, FT, CM = 0.0254, 0.3048, 0.01
 """Metres in the books' units of length."""
@@ -61,3 +62,45 @@ def rounds_to(found: float, printed: str) -> bool:
 def exactly(found: complex, exact: complex, largest: float = 0.0) -> bool:
     """Whether a value is the exact one to 1e-10, of itself or of the largest of its kind."""
     return abs(found - exact) <= WITNESSED * max(abs(exact), largest)
+
+
+# --- forces --------------------------------------------------------------------------------------
+
+LB = 4.4482216152605
+"""Newtons in a pound of force."""
+TENTHS = 0.003
+"""Share of itself by which a number of three figures rounds."""
+
+
+class Held:
+    """The forces of an example; construction, equations, power and fifty digits agree."""
+
+    def __init__(self, text: str, **settings: object) -> None:
+        example = mechanism(text, **settings)
+        assert far_from_exact(example) < WITNESSED
+        found = example.forces()
+        assert found is not None
+        self.solution, self.found = example.solve(), found[0]
+
+    def on(self, name: str, link: object) -> complex:
+        """The force on a link in a pin, guide or contact: on("A", 2), on("3-0", 3)."""
+        pairs = self.found.reactions
+        return next(e.force for e in pairs if (e.name, e.link) == (name, str(link)))
+
+    def place(self, name: str) -> complex:
+        """A point through which the force of a guide or contact passes."""
+        found = next(e.at for e in self.found.reactions if e.name == name)
+        assert found is not None
+        return found
+
+    def moment(self, driver: object = 1) -> float:
+        """The balancing moment of a driver."""
+        found = next(e.moment for e in self.found.balance if e.link == str(driver))
+        assert found is not None
+        return found
+
+    def force(self, driver: object = 1) -> complex:
+        """The balancing force of a driver."""
+        found = next(e.force for e in self.found.balance if e.link == str(driver))
+        assert found is not None
+        return found

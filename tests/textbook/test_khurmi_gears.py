@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import pytest
 
+from graphkin.structure.driver_count import count
+from graphkin.text.errors import SceneError, StructureError
 from tests.scene_files import scene_text
-from tests.textbook.book import RPM, answers, exactly, rounds_to
+from tests.textbook.book import RPM, answers, exactly, mechanism, rounds_to
 
 
 def speeds(text: str) -> dict[str, float]:
@@ -157,3 +159,135 @@ def test_khurmi_13_8_two_rings(ring, printed):
     assert rounds_to(found["B"], printed)
     assert exactly(found["CD"], -100 - (ring + 100) * 64 / 28)
     assert exactly(found["B"], -100 + (ring + 100) * (64 / 28) * (26 / 62), largest=100)
+
+
+# --- the same trains, of which the book states nothing but the teeth ------------------------------
+
+BY_TEETH_13_4 = EPICYCLIC_13_4.replace("module = 4\n", "").replace('"4*(36 + 45)/2"', "70")
+BY_TEETH_13_5 = """
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[frame]
+O = [0, 0]
+wheel = { centre = "O", teeth = 75 }
+[links.DE]
+P = [0, 0]
+wheels = [{ centre = "P", teeth = 90 }, { centre = "P", teeth = 45 }]
+rolls = { on = 0, wheels = [2, 1], link = "arm" }
+[links.C]
+O = [0, 0]
+wheel = { centre = "O", teeth = 30 }
+rolls = { on = "DE", wheels = [1, 1] }
+[[drivers]]
+turn = "arm"
+angle = 40
+speed = -100
+"""
+BY_TEETH_13_7 = """
+units = { length = "in", angle = "deg", speed = "rev/min" }
+[frame]
+O = [0, 0]
+[links.A]
+O = [0, 0]
+wheel = { centre = "O", teeth = 40 }
+[links.D]
+O = [0, 0]
+wheel = { centre = "O", teeth = 90, inside = true }
+[links.B]
+P = [0, 0]
+wheel = { centre = "P", teeth = 25 }
+rolls = [{ on = "A", link = "arm" }, { on = "D" }]
+[[drivers]]
+turn = "A"
+angle = 50
+speed = -1
+[[drivers]]
+turn = "D"
+angle = 10
+speed = 0.5
+"""
+
+
+@pytest.mark.parametrize(("speed", "printed"), [(0, "270"), (-300, "510")])
+def test_khurmi_13_4_by_its_teeth(speed, printed):
+    """The arm has any length; the teeth divide it."""
+    assert rounds_to(speeds(BY_TEETH_13_4.format(speed=speed))["gearB"], printed)
+
+
+def test_khurmi_13_5_by_its_teeth():
+    """No length at all; the second pair takes its module from the distance that the first keeps."""
+    found = speeds(BY_TEETH_13_5)
+    assert rounds_to(found["C"], "400")
+    assert exactly(found["DE"], -100 * (1 + 75 / 45))
+    scene = mechanism(BY_TEETH_13_5).scene
+    radii = {
+        (link.name, wheel.teeth.text): wheel.radius.number({})
+        for link in scene.every_link
+        for wheel in link.wheels
+    }
+    assert radii["0", "75"] + radii["DE", "45"] == radii["DE", "90"] + radii["C", "30"] == 120
+    assert [wheel.sized for wheel in scene.links["C"].wheels] == ["distance"]
+
+
+def test_khurmi_13_7_by_its_teeth():
+    """Sun and ring fit one planet by their teeth, 40 + 2·25 = 90; the program adds the arm."""
+    found = speeds(BY_TEETH_13_7)
+    assert rounds_to(found["arm"], "0.04")
+    assert exactly(found["arm"], (90 * 0.5 - 40) / 130, largest=1)
+    assert count(mechanism(BY_TEETH_13_7).scene).mobility == 2
+
+
+def test_a_ring_that_does_not_fit():
+    """A planet of 25 on a sun of 40 reaches a ring of 90, not one of 88."""
+    with pytest.raises(StructureError, match="90 teeth instead of 88 would touch there"):
+        mechanism(BY_TEETH_13_7.replace("teeth = 90", "teeth = 88")).solve()
+
+
+def test_compound_wheels_say_which_mesh():
+    """Without the pair named, either wheel of the planet may touch the fixed one."""
+    with pytest.raises(SceneError, match="several wheels known by their teeth alone"):
+        mechanism(BY_TEETH_13_5.replace("wheels = [2, 1], ", ""))
+
+
+def test_a_rack_needs_a_length():
+    """The way of a rack in one turn of its pinion is no ratio of teeth."""
+    rack = """
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[frame]
+O = [0, 0]
+[links.1]
+O = [0, 0]
+wheel = { centre = "O", teeth = 20 }
+rolls = { on = 2, through = "B", angle = 0 }
+[links.2]
+B = [0, 0]
+slides = { on = 0, through = [0, -50], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 20
+speed = 60
+"""
+    with pytest.raises(SceneError, match="teeth without a module"):
+        mechanism(rack)
+    assert mechanism(rack.replace("teeth = 20", "teeth = 20, module = 5")).solve()
+
+
+def test_a_chain_by_its_teeth():
+    """48 teeth turn 16 three times; both sprockets fit between their axles."""
+    chain = """
+units = { length = "in", angle = "deg", speed = "rev/min" }
+[frame]
+A = [0, 0]
+B = [17, 0]
+[links.front]
+A = [0, 0]
+wheel = { centre = "A", teeth = 48 }
+[links.rear]
+B = [0, 0]
+wheel = { centre = "B", teeth = 16 }
+belt = { on = "front" }
+[[drivers]]
+turn = "front"
+angle = 20
+speed = 60
+"""
+    assert exactly(speeds(chain)["rear"], 180)

@@ -28,7 +28,7 @@ from graphkin.construction.registry import BOARD
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line
 from graphkin.text.errors import PageError
-from graphkin.web.offline_page import BOARD_PAGE, part, written_in
+from graphkin.web.offline_page import part
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import task_page
 from graphkin.web.your_turn import written
@@ -40,11 +40,16 @@ TRIALS = 30
 """Random inputs of each action."""
 NEAR = 1e-12
 """The share by which Python and the page may differ."""
-SCRIPT = """([source, picks, places, millimetre, moves]) => {
+SCRIPT = """async ([texts, picks, places, millimetre, moves]) => {
   const data = { moves: {}, picks, places, shares: [], seconds: 1, millimetre, words: {} };
-  const { results_of } = new Function(`${source}; return palette_of`)()(data, () => true);
+  const loads = text => import(`data:text/javascript,${encodeURIComponent(text)}`);
+  const [{ palette_of }, actions] = await Promise.all(texts.map(loads));
+  const { results_of } = palette_of(data, () => true, actions);
   return moves.map(([action, ...inputs]) => results_of(action, inputs));
 }"""
+
+MODULES = ("palette.js", "board_actions.js")
+"""The modules that compute the results of moves."""
 
 
 def given_of(name: str) -> tuple[BoardGiven, Any]:
@@ -124,14 +129,6 @@ def inputs_of(action: str, table: Table, dice: Random) -> list[str]:
     return taken
 
 
-def script() -> str:
-    """The palette of the page as one function."""
-    text = part("palette.js")
-    for place, what in written_in(BOARD_PAGE).items():
-        text = text.replace(place, what)
-    return text
-
-
 def parts(value: Any) -> list[float]:
     """The numbers of a result as the page has them, a direction as a unit vector."""
     if isinstance(value, Line):
@@ -161,7 +158,7 @@ def test_every_action_draws_the_same_in_python_and_on_the_page(action: str, page
         draw = BOARD[action].draw
         assert draw is not None
         own = [each for each in draw(table, *inputs) if is_finite(each)]
-        told = (script(), picks_of(table), table.images, table.given.millimetre)
+        told = ([*map(part, MODULES)], picks_of(table), table.images, table.given.millimetre)
         (found,) = page.evaluate(SCRIPT, [*told, [[action, *inputs]]])
         assert len(found) == len(own), (inputs, found, own)
         met += len(own)

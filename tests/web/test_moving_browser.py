@@ -196,7 +196,7 @@ def test_a_printed_graph_gives_what_numpy_gives(page):
 def test_names_cannot_leave_the_script():
     """What is written into the data as text has no sign that could end a script."""
     source = page_of("pump")[1].source
-    text = source[source.index("const data = ") + 13 : source.index(";\nconst y =")]
+    text = source[source.index("const data = ") + 13 : source.index(";\nreturn graphkinMoving(")]
     assert "<" not in text and json.loads(text)["name"] == "*φ*"
 
 

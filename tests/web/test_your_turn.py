@@ -14,7 +14,7 @@ from graphkin.construction.velocity.turned_velocity import LaidOffByRate
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words
-from graphkin.web.offline_page import joined
+from graphkin.web.offline_page import part
 from graphkin.web.protocol import PageProtocol, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.your_turn import MoveFinder, YourTurn, palette, record, your_turn
@@ -36,11 +36,16 @@ COMING_ALONG = {
 }
 """Actions that no move draws: given lines and points, parts of a figure that one move draws, and
 special points that a student reads off."""
-RESULTS = """([source, record]) => {
-  const { results_of } = new Function(source + ';return palette_of')()(record, () => true);
+RESULTS = """async ([texts, record]) => {
+  const loads = text => import(`data:text/javascript,${encodeURIComponent(text)}`);
+  const [{ palette_of }, actions] = await Promise.all(texts.map(loads));
+  const { results_of } = palette_of(record, () => true, actions);
   return Object.fromEntries(Object.entries(record.moves).map(([step, { action, inputs }]) =>
     [step, results_of(action, inputs.map(key => record.picks[key].by || key))]));
 }"""
+
+MODULES = ("palette.js", "page_actions.js")
+"""The modules that compute the results of moves."""
 
 
 @cache
@@ -133,7 +138,7 @@ def test_every_other_action_is_a_move(name):
 def test_the_page_computes_what_the_trace_holds(page, name):
     """One result of each move's action is the value of its step."""
     sheets, _, turn = turn_of(name)
-    found = page.evaluate(RESULTS, [joined(("palette.js",)), record(sheets, turn)])
+    found = page.evaluate(RESULTS, [[*map(part, MODULES)], record(sheets, turn)])
     assert turn.moves
     for step in turn.moves:
         near = [apart(value, turn.values[step]) for value in found[str(step)]]

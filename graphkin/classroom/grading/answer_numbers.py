@@ -282,6 +282,11 @@ def read_number(text: str, stripped: str, item: Item) -> Answer:
     return Answer(text, value, signed=bool(sign), grouped=grouped)
 
 
+def with_unit(text: str, unit: str) -> str:
+    """A cell's text, with the unit of its column after a bare number."""
+    return f"{text.strip()} {unit}" if unit and NUMBER.fullmatch(text.strip()) else text
+
+
 def beyond_number(text: str) -> str:
     """The text after the leading number; all of the text where there is no number."""
     found = NUMBER.match(text.strip())

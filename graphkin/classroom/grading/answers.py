@@ -11,12 +11,14 @@ import zipfile
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path, PurePosixPath
 
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.answer_numbers import read_answer, with_unit
 from graphkin.classroom.grading.graded import THOUSANDS, WAITING, Answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
@@ -241,8 +243,12 @@ def packed_feedback(backs: Mapping[str, str], pages: Mapping[str, bytes], kind: 
     """
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as packed:
-        for back, page in sorted((backs[who], page) for who, page in pages.items() if who in backs):
-            packed.writestr(zipfile.ZipInfo(f"{back}feedback.{kind}", DATE), page)
+        known = sorted((backs[who], who) for who in pages if who in backs)
+        for back, sheets in groupby(known, key=itemgetter(0)):
+            for part, (_, who) in enumerate(sheets, 1):
+                tail = f"-{part}" if part > 1 else ""
+                name = f"{back}feedback{tail}.{kind}"
+                packed.writestr(zipfile.ZipInfo(name, DATE), pages[who])
     return data.getvalue()
 
 
@@ -470,7 +476,7 @@ class AnswerReading(Struct, dict=True):
     def rows(self, sheet: Spreadsheet, file: HandedIn, table_problems: TableProblems) -> None:
         """Read a table with a row for each student, or with one row of the file's owner."""
         where = columns(sheet, HEADS | BESIDE)
-        named = ((i, self.fields.get(folded(cell))) for i, cell in enumerate(sheet.head))
+        named = ((i, self.fields.get(folded(name_of(cell)))) for i, cell in enumerate(sheet.head))
         own = {i: name for i, name in named if name is not None}
         meant = [what for what in HEADS if what in where and self.match in ("", what)]
         alone = len(sheet.rows) + len(sheet.left_out) == 1
@@ -700,12 +706,28 @@ class AnswerReading(Struct, dict=True):
     ) -> Answer:
         """The answer in one cell; it is noted where it cannot be read, or reads in two ways."""
         item = self.known[name]
-        answer = read_answer(row.cells[column], item)
+        unit = unit_of(sheet.head[column]) if item.unit else ""
+        answer = read_answer(with_unit(row.cells[column], unit), item)
         problem = answer.problem or (THOUSANDS if answer.grouped is not None else "")
         if problem:
             why = (answer.text, problem, item.unit)
             unread.append(Unread(sheet.name, row.line, who, name, *why))
         return answer
+
+
+UNIT = re.compile(r"[\[(]\s*([^\[\]()]+?)\s*[\])]\s*$")
+"""The unit after the name of a field in the head of its column, in brackets."""
+
+
+def name_of(head: str) -> str:
+    """The head of a column without its unit."""
+    return UNIT.sub("", head)
+
+
+def unit_of(head: str) -> str:
+    """The unit in the head of a column; empty where there is none."""
+    found = UNIT.search(head)
+    return found[1] if found else ""
 
 
 def wrong_rows(table_problems: TableProblems, used: Collection[str]) -> dict[int, list[Problem]]:

@@ -1,20 +1,23 @@
 """Looks at a class as a whole before it is marked: a mistake of the table is not the students'.
 
-Rows or columns may be shifted or in another order. A column may have lost its decimal points, and
-the answers may be those of another lab, or of sheets at other scales.
+Rows or columns may be shifted or in another order. A column may have lost its decimal points, or be
+in another unit. The answers may be those of another lab, or of sheets at other scales.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isclose
 from typing import Any
 
+from graphkin.classroom.grading.answer_numbers import UNITS
 from graphkin.classroom.grading.graded import Graded, Status
 from graphkin.classroom.grading.keys import Keys, distinct, read_of
 from graphkin.classroom.grading.probes import plane_of
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.arithmetic import np
+from graphkin.scene.quantity import LENGTHS
 from graphkin.text.errors import NO_WORDS, Message, Problem, RosterError, message
 
 FEW = 6
@@ -27,6 +30,8 @@ NEARER = 2.5
 """How many times nearer a student's answers must be to another row's data."""
 CENTRED = 0.008
 """How near a power of ten the middle of a column is that lost its points, as a logarithm."""
+TENFOLD = 0.1
+"""How near a power of ten an answer is that is off by it, as a logarithm."""
 REACH = 5
 """The most rows by which a table is thought to be shifted."""
 SAMPLE = 60
@@ -59,6 +64,7 @@ def look_at_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> 
     if np.isnan(answers).all():
         return
     columns(keys, answers, keys.sizes[variants], allowed[variants])
+    in_other_units(keys, answers, keys.sizes[variants])
     tens(graded, present, keys, answers, keys.sizes[variants])
     scales(keys, answers, keys.sizes[variants], allowed[variants])
     if len(own) > 1:
@@ -176,6 +182,49 @@ def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
         if ((near > MOST) & (right < OWN)).mean() > MOST:
             found = message("hold the answers of the column beside: the columns are shifted")
             raise refused(found, message("mend the heads of the columns"))
+
+
+def in_other_units(keys: Keys, answers: Any, sizes: Any) -> None:
+    """Raise RosterError where all columns with one unit of length are off by one power of ten.
+
+    These are the lengths in a plan, or speeds and accelerations together.
+    """
+    groups: dict[str, list[int]] = {}
+    for place, field in enumerate(keys.fields):
+        item = keys.standards[0].item[field]
+        if item.what in ("segment", "value") and item.unit.partition("/")[0] in LENGTHS:
+            groups.setdefault(item.what, []).append(place)
+    with np.errstate(all="ignore"):
+        powers = np.log10(answers / abs(sizes))
+    problems = []
+    for places in groups.values():
+        own = powers[:, places][np.isfinite(powers[:, places])]
+        power = round(float(np.median(own))) if len(own) >= FEW else 0
+        near = abs(powers[:, places] - power) < TENFOLD
+        given = np.maximum(1, np.isfinite(powers[:, places]).sum(axis=0))
+        alike = near.sum(axis=0) >= MIXED * given
+        if power and abs(np.median(own) - power) <= CENTRED and alike.all():
+            problems.append(of_unit(keys, places, power))
+    if problems:
+        raise RosterError(problems)
+
+
+def of_unit(keys: Keys, places: Sequence[int], power: int) -> Problem:
+    """What is wrong with columns off by a power of ten, and what to do."""
+    items = [keys.standards[0].item[keys.fields[place]] for place in places]
+    factor = str(10**power) if power > 0 else f"1/{10**-power}"
+    found = message("are {factor} times the values of the data: another unit", factor=factor)
+    first = items[0]
+    sizes = UNITS.get(first.unit, {})
+    unit = next((u for u, size in sizes.items() if isclose(size * 10**power, first.one)), "")
+    hint = message("correct the columns, or mark them with --as-it-is")
+    if unit:
+        hint = message(
+            'write the unit into the heads, such as "{head}", or mark with --as-it-is',
+            head=f"{first.field} [{unit}]",
+        )
+    columns = ", ".join(f'"{item.field}"' for item in items)
+    return Problem(message("columns {columns}", columns=columns), found, NO_WORDS, hint)
 
 
 def tens(

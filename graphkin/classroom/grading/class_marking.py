@@ -23,7 +23,13 @@ from graphkin.classroom.grading.graded import (
     Result,
     Status,
 )
-from graphkin.classroom.grading.marking import FirstLook, Marker, explained, unread_left_out
+from graphkin.classroom.grading.marking import (
+    FirstLook,
+    Marker,
+    explained,
+    unread_left_out,
+    without_chance,
+)
 from graphkin.classroom.grading.others_data import with_others_data, with_own_causes
 from graphkin.classroom.grading.standard import Expectation, standard
 from graphkin.classroom.lab.cause_names import ANOTHER
@@ -185,7 +191,7 @@ def unfollowed(graded: Graded, fits: Sequence[str]) -> Graded:
             return mark
         return replace(mark, status=Status.WRONG, earned=Fraction(), source="")
 
-    return replace(graded, marks=tuple(map(without, graded.marks)))
+    return replace(graded, marks=without_chance(map(without, graded.marks)))
 
 
 def handed_in(answers: Given | None) -> Given | None:

@@ -260,14 +260,16 @@ def own_work(result: Result) -> list[Graded]:
 
 
 def summary(graded: Sequence[Graded], words: Words) -> str:
-    """How many students handed in answers, and their mean and median."""
+    """How many students handed in answers, or how many sheets; their mean and median."""
     shares = [float(100 * g.share) for g in graded if g.share is not None]
     amounts = {
         name: words.fixed(found(shares), 1) if shares else "–"
         for name, found in (("mean", mean), ("median", median))
     }
     present = sum(each.present for each in graded)
-    text = words("class.summary", present=present, all=len(graded), **amounts)
+    several = any(each.taker.student.owner for each in graded)
+    key = "class.summary_sheets" if several else "class.summary"
+    text = words(key, present=present, all=len(graded), **amounts)
     waiting = sum(bool(each.pending) for each in graded)
     return f"{text}; {words('class.pending', count=waiting)}" if waiting else text
 
@@ -475,5 +477,6 @@ def result_lines(result: Result, words: Words) -> Iterator[str]:
     if held:
         yield held
     counts = [len(list(decisions_of(result, is_open=is_open))) for is_open in (False, True)]
+    counts[0] += sum(bool(mark.answer.written) for each in result.graded for mark in each.marks)
     if any(counts):
         yield words("class.decided", count=counts[0], open=counts[1])

@@ -287,7 +287,8 @@ class AnswerSheet(Struct, frozen=True):
 
     ``digits`` are the rounding errors by the digits written, and ``least`` those of reading a
     length. ``wrong`` marks wrong answers. ``variant`` is the student's own, and ``ways`` are the
-    ways of working with its data that may give the answers.
+    ways of working with its data that may give the answers. ``strays`` are other variants, whose
+    data may have been drawn.
     """
 
     answers: Any
@@ -296,6 +297,7 @@ class AnswerSheet(Struct, frozen=True):
     wrong: Any
     variant: int
     ways: tuple[OwnWay, ...]
+    strays: tuple[int, ...] = ()
 
     @property
     def rounding(self) -> Any:
@@ -387,10 +389,14 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
 
 
 def with_causes(each: AnswerSheet, graded: Graded, keys: Keys, ways: Ways) -> AnswerSheet:
-    """A student's sheet, with the ways of the causes that explain some of the answers."""
+    """A student's sheet with the ways of the causes that explain some of the answers.
+
+    It has the variants that are nearest to the answers, too: two students may draw a third's data.
+    """
     names = {cause.name for cause in graded.causes}
     made = [way for way in ways(graded) if names.intersection(way.names)] if names else ()
-    return replace(each, ways=(*each.ways, *by_causes(made, keys)))
+    strays = tuple(nearest(each.answers, each.digits, keys, each.variant))
+    return replace(each, ways=(*each.ways, *by_causes(made, keys)), strays=strays)
 
 
 def agreeing(sheets: Mapping[int, AnswerSheet], keys: Keys) -> dict[Pair, dict[int, float]]:
@@ -500,18 +506,19 @@ def both_computed(one: AnswerSheet, other: AnswerSheet, keys: Keys, agree: Any) 
 def by_oneself(each: AnswerSheet, other: AnswerSheet, keys: Keys, read: Any, rest: Any) -> float:
     """How likely a student writes just these digits without the other's, as a logarithm.
 
-    The digits come from the student's own drawing or from a drawing of the other student's data.
-    The ``rest`` of the sheet weights these explanations; the student's own ways keep at least their
-    prior share.
+    The digits come from the student's own drawing, or from a drawing of other data: those of the
+    other student, or of a third. The ``rest`` of the sheet weights these explanations; the
+    student's own ways keep at least their prior share.
     """
     if not read.any():
         return 0.0
     sources = [(each.variant, way) for way in each.ways]
     rest = rest & each.is_read
-    if other.variant != each.variant:
-        rest = rest & keys.known(other.variant)
-        astray = replace(rightly(keys, other.variant), share=log(ASTRAY / len(keys.sizes)))
-        sources.append((other.variant, astray))
+    for variant in dict.fromkeys((other.variant, *each.strays)):
+        if variant != each.variant:
+            rest = rest & keys.known(variant)
+            astray = replace(rightly(keys, variant), share=log(ASTRAY / len(keys.sizes)))
+            sources.append((variant, astray))
     own = np.array([variant == each.variant for variant, _ in sources])
     shares = np.array([way.share for _, way in sources])
     posteriors = shares + [likelihood(each, keys, *source, rest) for source in sources]

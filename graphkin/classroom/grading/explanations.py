@@ -40,7 +40,7 @@ DIRECT = 0.15
 """How often a value is not computed from the length that was handed in."""
 SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
-LIKELY = 5.0
+LIKELY = 3.0
 """The least odds, as a logarithm, at which a cause is named."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""

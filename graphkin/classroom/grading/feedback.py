@@ -24,8 +24,8 @@ from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
 from graphkin.construction.core.quantities import CLOCKWISE, TURNING
-from graphkin.drawing.field import A4_AREA, A4_SIZE
-from graphkin.drawing.frame import page_frame
+from graphkin.drawing.field import A4_AREA, A4_PAGE, text_page
+from graphkin.drawing.frame import on_page, page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.richtext import advance, extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
@@ -490,22 +490,25 @@ def feedback_pages(
     scene: Scene | None = None,
     drawing: DrawingBack | None = None,
 ) -> tuple[Page, ...]:
-    """The A4 pages of one student, one page where possible, and then those of the drawing."""
+    """The pages of one student, one page where possible, and then those of the drawing."""
+    page = text_page(scene.sheet.paper) if scene else A4_PAGE
+    low = BOTTOM - page.shorter
     settings = settings_words(graded, words, scene)
-    tried = (list(paged(blocks(graded, rubric, words, settings, by))) for by in SPACINGS)
+    tried = (list(paged(blocks(graded, rubric, words, settings, by), low)) for by in SPACINGS)
     bodies = next((found for found in tried if len(found) == 1), None)
-    bodies = bodies or list(paged(blocks(graded, rubric, words, settings, SPACINGS[0])))
+    bodies = bodies or list(paged(blocks(graded, rubric, words, settings, SPACINGS[0]), low))
     if drawing and is_shown(graded):
-        bodies += paged(iter(drawing.blocks))
+        bodies += paged(iter(drawing.blocks), low)
     name = name_of(graded)
     return tuple(
-        Page(
-            *A4_SIZE,
+        on_page(
+            page,
             (
                 *page_frame(
                     (fitting(escape(safe(title))), words("feedback.title")),
                     (fitting(name), f"{number}/{len(bodies)}"),
                     scene.house.header if scene else (),
+                    page,
                 ),
                 *marks,
             ),
@@ -626,12 +629,12 @@ def shortened(markup: str, width: float, height: float) -> str:
     return escape(text) + "…"
 
 
-def paged(blocks: Iterator[Block]) -> Iterator[list[Mark]]:
-    """The marks of each page; a block that does not fit starts the next page."""
+def paged(blocks: Iterator[Block], low: float) -> Iterator[list[Mark]]:
+    """The marks of each page that ends at ``low`` mm; a block that does not fit starts the next."""
     page: list[Mark] = []
     y = TOP
     for height, marks in blocks:
-        if page and y + height > BOTTOM:
+        if page and y + height > low:
             yield page
             page, y = [], TOP
         page += [lowered(mark, y) for mark in marks]

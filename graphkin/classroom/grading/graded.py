@@ -95,7 +95,7 @@ class Decision(Struct, frozen=True):
     asked: str = ""
 
 
-class EarnedMark(Struct, frozen=True):
+class EarnedMark(Struct, frozen=True, omit_defaults=True):
     """What one field earned, out of ``points``, and why.
 
     ``expected`` is the value in the key, and ``tolerance`` the largest accepted error, in the

@@ -210,6 +210,8 @@ MARKS, TOLERANCES, REPORT, CHANGES = (
     "class.html",
     "differences.csv",
 )
+STUDENTS = "students.csv"
+"""The sums of students with several sheets."""
 RETURNED = "feedback-moodle.zip"
 """The feedback file that Moodle takes back."""
 FEEDBACK = "feedback"
@@ -258,6 +260,8 @@ def report_files(
             found, settings.title, settings.unread, settings.words, settings.refused
         ).encode(),
     }
+    if any(each.taker.student.owner for each in graded):
+        files[STUDENTS] = students_table(found)
     if before:
         files[CHANGES] = differences_table(differences(before, marks))
     return files | feedback_files(graded, lab, settings, formats)
@@ -307,13 +311,53 @@ def returned(
     return {RETURNED: packed_feedback(backs, pages, kind)}
 
 
+def of_one_student(found: Result) -> dict[str, list[Graded]]:
+    """The marked sheets of each student of the class list: one, or one for each position."""
+    sheets: dict[str, list[Graded]] = {}
+    for each in found.graded:
+        sheets.setdefault(each.taker.student.whose, []).append(each)
+    return sheets
+
+
+def students_table(found: Result) -> bytes:
+    """A row for each student of the class list: the points of all sheets, and of each."""
+    every = of_one_student(found)
+    most = max(map(len, every.values()), default=0)
+    head = ["id", "name", "group", "points", "of", "pending"]
+    rows: list[Sequence[str]] = [[*head, *(f"sheet {i}" for i in range(1, most + 1))]]
+    for who, sheets in every.items():
+        student, known = sheets[0].taker.student, [each for each in sheets if is_known(each)]
+        pending = sum((each.pending for each in sheets), Fraction())
+        rows.append(
+            [
+                who,
+                student.name,
+                student.group,
+                number(sum((each.earned for each in known), Fraction())) if known else "",
+                number(sum((each.points for each in sheets), Fraction())),
+                number(pending) if pending else "",
+                *(number(each.earned) if is_known(each) else "" for each in sheets),
+            ]
+        )
+    return csv_bytes(rows)
+
+
+def is_known(graded: Graded) -> bool:
+    """Whether a sheet has a mark, with nothing pending or held."""
+    return graded.is_marked and not graded.pending and not graded.held
+
+
 def points_by_id(found: Result, scale: Fraction | None = None) -> dict[str, Fraction]:
     """The points for a gradebook, of students with nothing pending or held.
 
+    The points of a student with several sheets are added; a sheet that was not handed in has none.
     With a ``scale``, points are the earned share of all points, times the scale.
     """
-    return {
-        each.taker.student.id: each.earned if scale is None else each.earned * scale / each.points
-        for each in found.graded
-        if each.is_marked and not each.pending and not each.held and (scale is None or each.points)
-    }
+    points: dict[str, Fraction] = {}
+    for who, sheets in of_one_student(found).items():
+        some = [each for each in sheets if each.is_marked]
+        full = sum((each.points for each in sheets), Fraction())
+        if some and all(map(is_known, some)) and (scale is None or full):
+            earned = sum((each.earned for each in some), Fraction())
+            points[who] = earned if scale is None else earned * scale / full
+    return points

@@ -2,90 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from math import inf, isfinite, nan
 from pathlib import Path
+from typing import Any
 
 import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answers import Unread
-from graphkin.classroom.grading.graded import (
-    Answer,
-    Decision,
-    EarnedMark,
-    Graded,
-    Result,
-    Status,
-    Suspicion,
-)
+from graphkin.classroom.grading.graded import Graded, Result, Suspicion
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.scene.file_limits import whole_file
 from graphkin.text.errors import NO_WORDS, PageError, Problem, message
 from graphkin.writers.shared_lines import exact
 
 KEPT_MARKS = "desk.json"
-FORMAT = 1
+FORMAT = 2
+LEFT_OUT: Mapping[str, float] = {"expected": nan, "tolerance": inf}
+"""The values of a mark that no number in a file represents."""
 
 
-class KeptMark(Struct, frozen=True, omit_defaults=True):
-    """A mark with the place of its item in the form; None represents a value that is no number."""
-
-    item: int
-    answer: Answer
-    status: Status
-    points: Fraction
-    earned: Fraction
-    expected: float | None = None
-    tolerance: float | None = None
-    source: str = ""
-    cause: str = ""
-    by_cause: float | None = None
-    torn: bool = False
-    alone: bool = False
-    rounded: str = ""
-    decision: Decision | None = None
-
-
-class KeptStudent(Struct, frozen=True):
-    """A student's marks; ``graded`` holds all but these."""
-
-    graded: Graded
-    marks: tuple[KeptMark, ...]
-
-
-class KeptReport(Struct, frozen=True, omit_defaults=True):
+class KeptReport(Struct, frozen=True):
     """A marked class.
 
     ``readings`` is the folder of the drawings, relative to the report; empty where there is none.
     ``cells`` are those that wait, or that a person has read.
+
+    In the file, each mark has the place of its item in the ``form``.
     """
 
     format: int
     form: tuple[Item, ...]
-    students: tuple[KeptStudent, ...]
+    graded: tuple[Graded, ...]
     wrong_variants: tuple[Suspicion, ...] = ()
     copies: tuple[Suspicion, ...] = ()
     cells: tuple[Unread, ...] = ()
     readings: str = ""
-
-    @property
-    def graded(self) -> tuple[Graded, ...]:
-        """The students with their marks."""
-        return tuple(
-            replace(each.graded, marks=tuple(self.restored(mark) for mark in each.marks))
-            for each in self.students
-        )
-
-    def restored(self, mark: KeptMark) -> EarnedMark:
-        """A mark as it was kept."""
-        values = {name: getattr(mark, name) for name in mark.__struct_fields__}
-        expected = nan if mark.expected is None else mark.expected
-        tolerance = inf if mark.tolerance is None else mark.tolerance
-        own = {"item": self.form[mark.item], "expected": expected, "tolerance": tolerance}
-        return EarnedMark(**(values | own))
 
 
 def kept_marks(
@@ -94,23 +49,27 @@ def kept_marks(
     """The file with the marks of a class."""
     places = {item.field: place for place, item in enumerate(form)}
     bare = tuple(replace(item, vector=None) for item in form)
-    students = tuple(
-        KeptStudent(replace(each, marks=()), tuple(kept(mark, places) for mark in each.marks))
-        for each in found.graded
-    )
     report = KeptReport(
-        FORMAT, bare, students, found.wrong_variants, found.copies, tuple(cells), readings
+        FORMAT, bare, (), found.wrong_variants, found.copies, tuple(cells), readings
     )
-    return msgspec.json.encode(report, enc_hook=as_exact) + b"\n"
+    students = [kept(each, places) for each in found.graded]
+    return msgspec.json.encode(builtins(report) | {"graded": students}) + b"\n"
 
 
-def kept(mark: EarnedMark, places: dict[str, int]) -> KeptMark:
-    """A mark with the place of its item."""
-    values = {name: getattr(mark, name) for name in mark.__struct_fields__}
-    numbers = {
-        name: values[name] if isfinite(values[name]) else None for name in ("expected", "tolerance")
-    }
-    return KeptMark(**(values | numbers | {"item": places[mark.item.field]}))
+def kept(graded: Graded, places: Mapping[str, int]) -> msgspec.Raw:
+    """A student with the places of the items, as it is in the file."""
+    marks = []
+    for mark in graded.marks:
+        values = builtins(replace(mark, item=None)) | {"item": places[mark.item.field]}
+        gone = [name for name in LEFT_OUT if not isfinite(values[name])]
+        marks.append({name: value for name, value in values.items() if name not in gone})
+    return msgspec.Raw(msgspec.json.encode(builtins(replace(graded, marks=())) | {"marks": marks}))
+
+
+def builtins(record: Struct) -> dict[str, Any]:
+    """A record as a dictionary, exact numbers and markup as text."""
+    found: dict[str, Any] = msgspec.to_builtins(record, enc_hook=as_exact)
+    return found
 
 
 def as_exact(value: object) -> str:
@@ -118,6 +77,16 @@ def as_exact(value: object) -> str:
     if isinstance(value, Fraction | str):
         return str(value)
     raise NotImplementedError(type(value))
+
+
+def restored(values: dict[str, Any]) -> KeptReport:
+    """A report from the values of its file. Raises ValueError and LookupError for any other."""
+    form = values["form"]
+    for student in values["graded"]:
+        student["marks"] = [
+            LEFT_OUT | mark | {"item": form[mark["item"]]} for mark in student["marks"]
+        ]
+    return msgspec.convert(values, KeptReport, dec_hook=exact)
 
 
 def read_kept_marks(report: Path) -> KeptReport | None:
@@ -129,10 +98,11 @@ def read_kept_marks(report: Path) -> KeptReport | None:
     if not path.is_file():
         return None
     try:
-        found = msgspec.json.decode(whole_file(path), type=KeptReport, dec_hook=exact)
-    except (msgspec.MsgspecError, ValueError):
+        values = msgspec.json.decode(whole_file(path))
+        found = restored(values) if values["format"] == FORMAT else None
+    except (msgspec.MsgspecError, ValueError, LookupError, TypeError):
         found = None
-    if found is None or found.format != FORMAT:
+    if found is None:
         hint = message("mark the class again with graphkin grade --force")
         problem = Problem(str(path), message("cannot be read as marks"), NO_WORDS, hint)
         raise PageError(problem)

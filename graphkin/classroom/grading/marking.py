@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from math import floor, isnan
 from typing import Any
@@ -181,6 +181,7 @@ class Marker:
         """The mark of each field; what agrees with an explanation of the sheet is right."""
         given, wrong = first.given, first.wrong
         caused = {f for f in wrong if found is not None and f in found.fits}
+        empty = frozenset() if found is None else self.left_out(given, found)
         lost = frozenset(f for f in caused if found is not None and self.is_lost(f, found))
         right = (*first.right, *first.computed, *(f for f in wrong if f in caused))
         rest = tuple(field for field in wrong if field not in caused)
@@ -194,16 +195,16 @@ class Marker:
             mark = self.first_mark(item, given[field], (*first.right, *first.computed), points)
             if field in first.computed:
                 mark = replace(mark, source=first.computed[field].sources[0])
-            elif field in caused or field in also:
+            elif field in caused or field in also or field in empty:
                 earned = NONE if field in lost else points
                 mark = replace(mark, status=Status.CAUSE, earned=earned, cause=name)
-                if found is not None and field in caused:
+                if found is not None and field not in also:
                     mark = replace(mark, by_cause=found.values[field])
             elif field in rest:
                 mark = self.following(mark, followed.get(field))
             mark = self.by_digits(mark)
             known[field] = replace(mark, torn=field in first.torn)
-        return tuple(self.not_by_chance(mark, known) for mark in known.values())
+        return without_chance(known.values())
 
     def by_digits(self, mark: EarnedMark) -> EarnedMark:
         """The mark of a value that is right but for its digits: too few, or other than wanted."""
@@ -222,20 +223,14 @@ class Marker:
         fault = "few" if most < rubric.digits[0] else "many" if fewest > rubric.digits[1] else ""
         return replace(mark, earned=min(mark.earned, share), rounded=fault) if fault else mark
 
+    def left_out(self, given: Mapping[str, Answer], found: SheetCauses) -> frozenset[str]:
+        """The blank fields of vectors that a student with these causes does not draw."""
+        vectors = {f for f, probe in self.standard.by_field.items() if probe.vector}
+        return frozenset(f for f in vectors if given[f].is_blank and found.values[f] == 0)
+
     def is_lost(self, field: str, found: SheetCauses) -> bool:
         """Whether a sense was taken the other way: it is worth no more than a blank."""
         return REVERSED in found.names and self.standard.by_field[field].item.what == "sense"
-
-    def not_by_chance(self, mark: EarnedMark, known: Mapping[str, EarnedMark]) -> EarnedMark:
-        """The mark of a sense: it earns nothing where the size beside it earns nothing.
-
-        One of two senses is right by chance. Where a size cannot be read, its sense counts.
-        """
-        sized = known.get(mark.item.sized)
-        if mark.item.what != "sense" or sized is None or not (mark.earned and sized.points):
-            return mark
-        is_alone = sized.status in (Status.WRONG, Status.BLANK) and not sized.earned
-        return replace(mark, earned=NONE, alone=True) if is_alone else mark
 
     def followed(
         self, answers: Mapping[str, Answer], wrong: tuple[str, ...], right: tuple[str, ...]
@@ -298,6 +293,22 @@ class Marker:
         earned = mark.points * Fraction(str(rubric.follow))
         source = follows.sources[0] if follows is not None else ""
         return replace(mark, status=Status.FOLLOWS, earned=earned, source=source)
+
+
+def without_chance(marks: Iterable[EarnedMark]) -> tuple[EarnedMark, ...]:
+    """The marks, where a sense earns nothing if the size beside it earns nothing.
+
+    One of two senses is right by chance. Where a size cannot be read, its sense counts.
+    """
+    known = {mark.item.field: mark for mark in marks}
+
+    def alone(mark: EarnedMark) -> bool:
+        sized = known.get(mark.item.sized)
+        if mark.item.what != "sense" or sized is None or not (mark.earned and sized.points):
+            return False
+        return sized.status in (Status.WRONG, Status.BLANK) and not sized.earned
+
+    return tuple(replace(m, earned=NONE, alone=True) if alone(m) else m for m in known.values())
 
 
 def explained(sheets: Sequence[tuple[Marker, FirstLook]]) -> list[SheetCauses | None]:

@@ -24,7 +24,7 @@ from graphkin.classroom.grading.marking import Marker, unread_left_out
 from graphkin.classroom.grading.standard import Errors, Expectation, Standard, standard
 from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.classroom.lab.lab_model import Item, Lab, OwnCause
-from graphkin.classroom.lab.rules import exact_text, outside, settings
+from graphkin.classroom.lab.rules import exact_text, outside, settings, sheets
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.mechanism import Mechanism
@@ -209,21 +209,22 @@ def of_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> list[
 def of_numbers(book: Markers, graded: Sequence[Graded]) -> list[OtherData]:
     """The data of the lab's other numbers, where its rule is a formula of the number alone."""
     lab = book.lab
-    if lab.rule.draws or not lab.rule.counts:
+    if lab.rule.is_drawn or not lab.rule.counts:
         return []
     taken = {tuple(sorted(each.taker.settings.items())) for each in graded}
     found: list[Taker] = []
     for number in range(1, NUMBERS + 1):
         student = Student(number, str(number), number)
         try:
-            data = settings(lab, student)
-            if outside(book.usual.scene.parameters, data):
-                break
+            every = [settings(lab, each) for each in sheets(lab.rule, student)]
         except SceneError:
             break
-        exact_data = {name: exact_text(value) for name, value in data.items()}
-        if tuple(sorted(exact_data.items())) not in taken:
-            found.append(Taker(student, exact_data))
+        if any(outside(book.usual.scene.parameters, data) for data in every):
+            break
+        for data in every:
+            exact_data = {name: exact_text(value) for name, value in data.items()}
+            if tuple(sorted(exact_data.items())) not in taken:
+                found.append(Taker(student, exact_data))
     book.prepare(found)
     standards = [book.marker_of(each).standard for each in found]
     return [

@@ -421,13 +421,15 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
     units = {item.unit for item in form.items if item.unit}
     every = np.array([item.unit for item in form.items])
     groups = [every == unit for unit in sorted(units)]
-    sized = ~(form.senses | form.centres)
+    sized = ~form.senses
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        given, sizes = abs(view.answers), abs(shown)
+        alike = sized & ~(form.centres & (view.answers * shown <= 0))
         with np.errstate(all="ignore"):
-            powers = np.log10(view.answers / abs(shown))
+            powers = np.log10(given / sizes)
             near = np.round(powers)
-            fits = sized & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
+            fits = alike & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
         if whole:
             shift = np.where(fits & view.whole & (near > 0), near, np.nan)
             return only(np.isfinite(shift), shown * 10.0 ** np.nan_to_num(shift), shown), None
@@ -439,9 +441,9 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             power = np.where(here.any(axis=1), middling(np.where(here, near, np.nan)), usual)
             power = np.round(power)[:, None]
             with np.errstate(all="ignore"):
-                away = abs(view.answers / 10.0**power - abs(shown))
-                beside = abs(view.answers - abs(shown)) > OFTEN * view.errors
-            unsure = group & sized & beside & (away < OFTEN * view.errors) & (power != 0)
+                away = abs(given / 10.0**power - sizes)
+                beside = abs(given - sizes) > OFTEN * view.errors
+            unsure = group & alike & beside & (away < OFTEN * view.errors) & (power != 0)
             some = (here & (near == power)) | unsure
             changed = only(some, shown * 10.0**power, changed)
         return changed, None

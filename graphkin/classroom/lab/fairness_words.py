@@ -42,7 +42,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     who = "number" if lab.rule.counts else "id"
     english = words("en")
     yield from labelled("unfair", lines_of(broken_table(outcome, english)))
-    if lab.rule.draws:
+    if lab.rule.is_drawn:
         yield from labelled("again", [again_words(lab.rule, outcome.spoiled_share)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(outcome.names)]
     yield from labelled("compute", list(fields_by_whom(computed, who)))
@@ -66,11 +66,16 @@ def again_words(rule: LabRule, unfair: float) -> str:
 def rule_words(lab: Lab) -> str:
     """The rule in words."""
     rule = lab.rule
-    formulas = ", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())
-    if not rule.draws:
-        return formulas
-    draws = ", ".join(f"{name} {draw_words(values)}" for name, values in rule.draws.items())
-    return f"{f'{formulas}; ' if formulas else ''}{draws}, drawn for {rule.course}"
+    parts = [", ".join(f"{name} = {formula.text}" for name, formula in rule.settings.items())]
+    draws = [f"{name} {draw_words(values)}" for name, values in rule.draws.items()]
+    if (several := rule.positions) is not None and several.range is None:
+        texts = ", ".join(formula.text for formula in several.formulas)
+        parts.append(f"{several.parameter} = {texts}, one a sheet")
+    elif several is not None and several.range is not None:
+        draws.append(f"{several.count} values of {several.parameter} {draw_words(several.range)}")
+    if draws:
+        parts.append(f"{', '.join(draws)}, drawn for {rule.course}")
+    return "; ".join(filter(None, parts))
 
 
 def data_words(settings: Settings) -> str:

@@ -54,28 +54,51 @@ class ValueList(Struct, frozen=True):
         raise IndexError(index)
 
 
+class SeveralValues(Struct, frozen=True):
+    """The values of a parameter that each student gets, on a sheet of its own each.
+
+    They are ``formulas`` in ``number``, or ``count`` different values of a range that a hash picks.
+    """
+
+    parameter: str
+    formulas: tuple[Quantity, ...] = ()
+    range: Range | None = None
+    count: int = 0
+
+    def __len__(self) -> int:
+        return len(self.formulas) or self.count
+
+
 class LabRule(Struct, frozen=True):
     """The rule that gives each student's data.
 
     ``draws`` are ranges of parameters, from which a hash of course, lab and student picks. Unfair
     data are drawn again, at most ``tries`` times. ``settings`` gives parameters as expressions in
-    ``number``; where nothing is drawn, the same number always gets the same data.
+    ``number``; where nothing is drawn, the same number always gets the same data. ``positions`` are
+    the values of a parameter of which each student gets several.
     """
 
     course: str = ""
     draws: Mapping[str, Range | ValueList] = {}
     tries: int = 100
     settings: Mapping[str, Quantity] = field(default_factory=dict)
+    positions: SeveralValues | None = None
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether a hash picks some of the data."""
+        return bool(self.draws) or (self.positions is not None and bool(self.positions.count))
 
     @property
     def counts(self) -> bool:
         """Whether each student needs a number."""
-        return any(NUMBER in formula.uses() for formula in self.settings.values())
+        several = self.positions.formulas if self.positions is not None else ()
+        return any(NUMBER in each.uses() for each in (*self.settings.values(), *several))
 
     @property
     def attempts(self) -> int:
         """The most attempts at a student's data. Formulas give the same again, so they have one."""
-        return self.tries if self.draws else 1
+        return self.tries if self.is_drawn else 1
 
 
 class Fair(Struct, frozen=True):

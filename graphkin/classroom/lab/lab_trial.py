@@ -10,7 +10,7 @@ from graphkin.classroom.grading.neighbours import Neighbours, compared, pencil_f
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.items import asked_fields, items
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.rules import Settings, outside, settings
+from graphkin.classroom.lab.rules import Settings, outside, settings, sheets
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
 from graphkin.numbers.arithmetic import np
@@ -84,7 +84,7 @@ class LabTrial(Struct, frozen=True):
         A formula must be fair to all; ranges are unfair where every draw is. In both cases, no
         field may be missing on the sheets, and no limit that needs keys may be broken.
         """
-        by_formula = not self.lab.rule.draws
+        by_formula = not self.lab.rule.is_drawn
         unfair = bool(self.unfair or self.coarse) if by_formula else self.unfair == len(self.many)
         return bool(self.unasked or self.by_keys) or unfair
 
@@ -100,8 +100,9 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     Raises SceneError where the formula gives no allowed data for number 1.
     """
     students = students_of(lab, count)
-    names = tuple(each.id for each in students)
-    many = tuple(settings(lab, each) for each in students)
+    every_sheet = [each for student in students for each in sheets(lab.rule, student)]
+    names = tuple(each.id for each in every_sheet)
+    many = tuple(settings(lab, each) for each in every_sheet)
     fairness = judged(lab, many)
     form = items(lab.mechanism, lab)
     drawn = {*fairness.lengths, *fairness.rays, *fairness.on_page}
@@ -150,7 +151,11 @@ def students_of(lab: Lab, count: int) -> list[Student]:
     for number in range(1, count + 1):
         student = Student(number, str(number), number)
         try:
-            problems = outside(lab.mechanism.scene.parameters, settings(lab, student))
+            problems = [
+                problem
+                for each in sheets(lab.rule, student)
+                for problem in outside(lab.mechanism.scene.parameters, settings(lab, each))
+            ]
         except SceneError as error:
             problems = list(error.problems)
         if problems and number == 1:

@@ -14,7 +14,7 @@ from msgspec.structs import replace
 from graphkin.classroom.lab.fair_ranges import FairRanges
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.fairness_words import draw_words, limit_words
-from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, SeveralValues, ValueList
 from graphkin.classroom.lab.lab_trial import LabTrial, tried
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.roster.student import Student
@@ -122,7 +122,7 @@ class ProposedRanges(Struct, frozen=True):
 
     ``count`` is the number of different data. ``kept`` is the number of students with fair data, in
     a class of ``of``, at the limit ``apart``. ``exact`` is the share of data that a pencil draws
-    accurately enough.
+    accurately enough. ``positions`` are those of the lab, drawn from all that the scene allows.
     """
 
     ranges: Mapping[str, Range | ValueList]
@@ -132,6 +132,12 @@ class ProposedRanges(Struct, frozen=True):
     kept: int
     of: int
     exact: float = 1.0
+    positions: SeveralValues | None = None
+
+    @property
+    def lines(self) -> list[str]:
+        """The table ``[variants]`` that draws from them."""
+        return variants_lines(self.ranges, self.course, self.positions)
 
 
 def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
@@ -140,10 +146,17 @@ def proposed_ranges(lab: Lab, found: FairRanges) -> ProposedRanges | None:
         return None
     course = lab.rule.course or COURSE
     apart = lab.fair.apart if lab.fair.apart is not None else APART
-    new = replace(lab, rule=LabRule(course, found.ranges), fair=replace(lab.fair, apart=apart))
+    positions = lab.rule.positions
+    own = "" if positions is None else positions.parameter
+    ranges = {name: values for name, values in found.ranges.items() if name != own}
+    rule = LabRule(course, ranges, positions=positions)
+    new = replace(lab, rule=rule, fair=replace(lab.fair, apart=apart))
     students = [Student(i, f"{i:04d}", i) for i in range(1, CLASS + 1)]
-    kept = sum(each.fair for each in assigned(new, students))
-    return ProposedRanges(found.ranges, course, found.count, apart, kept, CLASS, found.exact_inside)
+    every = assigned(new, students)
+    kept, of = sum(each.fair for each in every), len(every)
+    return ProposedRanges(
+        ranges, course, found.count, apart, kept, of, found.exact_inside, positions
+    )
 
 
 class FormulaFaults(Struct, frozen=True):
@@ -211,10 +224,18 @@ def value_lines(found: FairRanges, name: str) -> list[str]:
     return table(("value", "fair, %", ""), rows)
 
 
-def variants_lines(ranges: Mapping[str, Range | ValueList], course: str) -> list[str]:
-    """The table ``[variants]`` that draws from some ranges."""
-    lines = ["[variants]", f'course = "{course}"', "[variants.draw]"]
-    return lines + [f"{name} = {listed_alone(values)}" for name, values in ranges.items()]
+def variants_lines(
+    ranges: Mapping[str, Range | ValueList], course: str, positions: SeveralValues | None = None
+) -> list[str]:
+    """The table ``[variants]`` that draws from some ranges, with the positions of a lab."""
+    is_drawn = bool(ranges) or positions is None or bool(positions.count)
+    lines = ["[variants]", *([f'course = "{course}"'] if is_drawn else [])]
+    if positions is not None:
+        formulas = ", ".join(f'"{each.text}"' for each in positions.formulas)
+        several = f"[{formulas}]" if formulas else str(positions.count)
+        lines.append(f"positions = {{ {positions.parameter} = {several} }}")
+    draws = [f"{name} = {listed_alone(values)}" for name, values in ranges.items()]
+    return [*lines, "[variants.draw]", *draws] if draws else lines
 
 
 def listed_alone(values: Range | ValueList) -> str:

@@ -24,6 +24,7 @@ from graphkin.classroom.lab.lab_model import (
     OwnCause,
     Range,
     Rubric,
+    SeveralValues,
     ValueList,
 )
 from graphkin.mechanism import Mechanism
@@ -46,6 +47,8 @@ OPEN = -1.0
 """The value of a limit that is not written."""
 MOST_TRIES = 10_000
 MOST_DIGITS = 12
+FEWEST, MOST_SHEETS = 2, 12
+"""The fewest and the most positions of one student, each on a sheet of its own."""
 MOST_VALUES = 10**9
 """The most values of a range."""
 
@@ -137,10 +140,14 @@ def read_rule(table: Table, scene: Scene) -> LabRule:
     both = message(
         "set = {{ … }} with formulas of the number, course = … and draw = {{ … }} with ranges"
     )
-    if "set" not in table and "draw" not in table:
+    if not {"set", "draw", "positions"} & table.raw.keys():
         table.findings.add(table.place, message("no rule"), message("{both}, or both", both=both))
-    of_number = "draw" not in table
-    rule = read_formula(table, scene) if of_number else read_ranges(table, scene)
+    positions = read_positions(table.table("positions"), scene) if "positions" in table else None
+    of_number = "draw" not in table and not (positions is not None and positions.count)
+    if of_number:
+        rule = read_formula(table, scene, positions)
+    else:
+        rule = read_ranges(table, scene, positions)
     for key in ("course", "tries") if of_number else ():
         if key in table:
             table.take(key)
@@ -149,20 +156,76 @@ def read_rule(table: Table, scene: Scene) -> LabRule:
                 message("belongs to ranges"),
                 message("draw = {{ … }}, or leave it out"),
             )
-    table.known += ["set", "draw"]
+    table.known += ["set", "draw", "positions"]
     table.finish()
+    if positions is not None and positions.parameter in {*rule.draws, *rule.settings}:
+        table.findings.add(
+            f"{table.at('positions')}.{positions.parameter}",
+            message("set or draw gives {name} as well", name=positions.parameter),
+            message("one of them"),
+        )
     return rule
 
 
-def read_formula(table: Table, scene: Scene) -> LabRule:
+def read_positions(table: Table, scene: Scene) -> SeveralValues | None:
+    """The parameter of which each student gets several values: how many, or a formula for each."""
+    names = known_parameters(table, scene)
+    if len(table.raw) > 1:
+        table.findings.add(
+            table.place,
+            message("{count} parameters", count=len(table.raw)),
+            message("one, such as positions = {{ p = 3 }}"),
+        )
+    if len(names) != 1 or len(table.raw) > 1:
+        return None
+    (name,) = names
+    raw, place = table.take(name), table.at(name)
+    if isinstance(raw, list) and FEWEST <= len(raw) <= MOST_SHEETS:
+        read = [formula(f"{place}[{i}]", each, table.findings) for i, each in enumerate(raw)]
+        found = tuple(each for each in read if each is not None)
+        return SeveralValues(name, found) if len(found) == len(raw) else None
+    values = whole_range(scene.parameters[name], place, table.findings)
+    if isinstance(raw, int) and not isinstance(raw, bool) and values is not None:
+        most = min(len(values), MOST_SHEETS)
+        if FEWEST <= raw <= most:
+            return SeveralValues(name, range=values, count=raw)
+        expected = message("a whole number from {least} to {most}", least=FEWEST, most=most)
+        table.findings.add(place, shown(raw), expected)
+    elif values is not None:
+        expected = message(
+            "how many, such as {example}, or a list of {least} to {most} formulas of the number",
+            example=3,
+            least=FEWEST,
+            most=MOST_SHEETS,
+        )
+        table.findings.add(place, shown(raw), expected)
+    return None
+
+
+def whole_range(parameter: Parameter, place: str, findings: Findings) -> Range | None:
+    """All values of a parameter; None, with a problem noted, where the scene gives no steps."""
+    least, most, step = parameter.minimum, parameter.maximum, parameter.step
+    if least is None or most is None or step is None:
+        findings.add(
+            place,
+            message("the scene gives no steps to choose from"),
+            message("min, max and step in [parameters]"),
+        )
+        return None
+    return Range(plain(least), plain(most), plain(step))
+
+
+def read_formula(table: Table, scene: Scene, positions: SeveralValues | None) -> LabRule:
     """Read each parameter as an expression in the student's number."""
-    inner = table.table("set")
-    settings = read_settings(inner, scene)
-    uses = any(NUMBER in read.uses() for read in settings.values())
-    if settings and not uses and not inner.findings.inside(inner.place):
+    several = positions.formulas if positions is not None else ()
+    is_alone = "set" not in table and "positions" in table
+    inner = table.table("positions" if is_alone else "set")
+    settings = {} if is_alone else read_settings(inner, scene)
+    uses = any(NUMBER in read.uses() for read in (*settings.values(), *several))
+    if (settings or several) and not uses and not inner.findings.inside(inner.place):
         found = message("no formula uses {number}, so all students get the same", number=NUMBER)
         inner.findings.add(inner.place, found, message('such as n = "{number}"', number=NUMBER))
-    return LabRule(settings=settings)
+    return LabRule(settings=settings, positions=positions)
 
 
 def read_settings(table: Table, scene: Scene) -> dict[str, Quantity]:
@@ -207,7 +270,7 @@ def formula(
     return None if strangers else read
 
 
-def read_ranges(table: Table, scene: Scene) -> LabRule:
+def read_ranges(table: Table, scene: Scene, positions: SeveralValues | None) -> LabRule:
     """Read each parameter as a range, and the course, whose name goes into the hash."""
     course = table.text("course").strip()
     if not course and not table.findings.inside(table.at("course")):
@@ -215,8 +278,9 @@ def read_ranges(table: Table, scene: Scene) -> LabRule:
         table.findings.add(table.at("course"), message("is missing"), expected)
     tries = whole(table, "tries", 100, 1, MOST_TRIES)
     inner = table.table("draw")
+    names = known_parameters(inner, scene) if "draw" in table else []
     draws: dict[str, Range | ValueList] = {}
-    for name in known_parameters(inner, scene):
+    for name in names:
         parameter = scene.parameters[name]
         found: Range | ValueList | None
         if isinstance(inner.raw[name], list):
@@ -236,7 +300,7 @@ def read_ranges(table: Table, scene: Scene) -> LabRule:
                 message("draw gives {name} as well", name=name),
                 message("either set or draw"),
             )
-    return LabRule(course, draws, tries, settings)
+    return LabRule(course, draws, tries, settings, positions)
 
 
 def known_parameters(table: Table, scene: Scene) -> list[str]:

@@ -8,6 +8,10 @@ attempt, parameter], written without spaces and with unescaped letters. The hash
 modulo the number of values, is the index of the value. Indices count from the least value; in a
 list, they follow its order.
 
+Several positions are picked without repetition: the hash for "p 2" instead of "p", modulo the
+number of values that are left, is the index of the second among them. Picked values are then put
+in order. The id is that of the class list.
+
 Attempt 0 is the first; unfair data are drawn again with 1, 2, … In a shell::
 
     printf '%s' '["mechanics 2026","pump","0042",0,"n"]' | sha256sum
@@ -17,18 +21,38 @@ from __future__ import annotations
 
 import hashlib
 import json
+from bisect import insort
 from collections.abc import Mapping
 from fractions import Fraction
 
-from graphkin.classroom.lab.lab_model import NUMBER, Lab, LabRule, Range, ValueList
+from msgspec.structs import replace
+
+from graphkin.classroom.lab.lab_model import (
+    NUMBER,
+    Lab,
+    LabRule,
+    Range,
+    SeveralValues,
+    ValueList,
+)
 from graphkin.classroom.roster.student import Student
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
-from graphkin.scene.quantity import shortest
+from graphkin.scene.quantity import Quantity, shortest
 from graphkin.text.errors import Problem, SceneError, message
 
 Settings = dict[str, Fraction]
 """Exact values of parameters by name."""
+
+
+def sheets(rule: LabRule, student: Student) -> list[Student]:
+    """The entries of a student: one, or one for each position, with its number after the id."""
+    if rule.positions is None:
+        return [student]
+    return [
+        replace(student, id=f"{student.id}-{part}", owner=student.id, part=part)
+        for part in range(1, len(rule.positions) + 1)
+    ]
 
 
 def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
@@ -36,10 +60,43 @@ def settings(lab: Lab, student: Student, attempt: int = 0) -> Settings:
 
     Raises SceneError where a formula needs a number that is missing, or gives no rational value.
     """
-    found = by_formula(lab.rule, student)
-    for name, values in lab.rule.draws.items():
-        found[name] = drawn(values, lab.rule.course, lab.name, student.id, attempt, name)
+    rule = lab.rule
+    found = by_formula(rule, student)
+    for name, values in rule.draws.items():
+        found[name] = drawn(values, rule.course, lab.name, student.whose, attempt, name)
+    if rule.positions is not None:
+        several = own_values(lab, rule.positions, student, attempt)
+        found[rule.positions.parameter] = several[max(student.part, 1) - 1]
     return found
+
+
+def own_values(lab: Lab, several: SeveralValues, student: Student, attempt: int) -> list[Fraction]:
+    """The values of a parameter that a student gets, one for each sheet.
+
+    Drawn values are in order. Raises SceneError where a formula gives no rational value, or two of
+    them the same.
+    """
+    if several.range is None:
+        place = f"positions.{several.parameter}"
+        found = [
+            at_number(each, student, f"{place}[{i}]") for i, each in enumerate(several.formulas)
+        ]
+        twice = next((value for value in found if found.count(value) > 1), None)
+        if twice is not None:
+            wrong = message(
+                "number {number} gets {value} twice", number=student.number, value=shortest(twice)
+            )
+            raise SceneError(Problem(place, wrong, message("different values")))
+        return found
+    places: list[int] = []
+    for part in range(1, several.count + 1):
+        name = f"{several.parameter} {part}"
+        place_of_left = picked(lab.rule.course, lab.name, student.whose, attempt, name)
+        index = place_of_left % (len(several.range) - len(places))
+        for taken in places:
+            index += taken <= index
+        insort(places, index)
+    return [several.range.value(index) for index in places]
 
 
 def by_formula(rule: LabRule, student: Student) -> Settings:
@@ -49,19 +106,23 @@ def by_formula(rule: LabRule, student: Student) -> Settings:
     """
     if rule.counts and student.number is None:
         raise SceneError(Problem("", message("has no number, and the lab's formula needs one")))
-    found: Settings = {}
-    for name, formula in rule.settings.items():
-        value = formula.number({NUMBER: Fraction(student.number or 0)})
-        if not isinstance(value, Fraction):
-            wrong = message(
-                "{text} gives {value} for number {number}, which is not rational",
-                text=formula.text,
-                value=shortest(value),
-                number=student.number,
-            )
-            raise SceneError(Problem(f"set.{name}", wrong))
-        found[name] = value
-    return found
+    return {
+        name: at_number(formula, student, f"set.{name}") for name, formula in rule.settings.items()
+    }
+
+
+def at_number(formula: Quantity, student: Student, place: str) -> Fraction:
+    """The value of a formula at the student's number. Raises SceneError if it is not rational."""
+    value = formula.number({NUMBER: Fraction(student.number or 0)})
+    if not isinstance(value, Fraction):
+        wrong = message(
+            "{text} gives {value} for number {number}, which is not rational",
+            text=formula.text,
+            value=shortest(value),
+            number=student.number,
+        )
+        raise SceneError(Problem(place, wrong))
+    return value
 
 
 def drawn(

@@ -72,6 +72,17 @@ class Edition(Struct, frozen=True, dict=True):
             {who: taker.student.name for who, taker in every.items()},
         )
 
+    @property
+    def owners(self) -> Signs:
+        """How gradebooks identify the students of the class list, whose sheets may be several."""
+        every = {taker.student.whose: taker for taker in self.takers}
+        return signs(
+            every,
+            {who: taker.code for who, taker in every.items() if not taker.student.owner},
+            {who: taker.email for who, taker in every.items()},
+            {who: taker.student.name for who, taker in every.items()},
+        )
+
     def words(self, language: str | None = None) -> Words:
         """The words of the pages: in the given language, else in that of the class or of its scene.
 
@@ -229,7 +240,16 @@ def taker(student: object, place: int, problems: list[Problem]) -> Taker | None:
         problems.append(Problem(where, found, message("text, and parameters as text"), AGAIN))
         return None
     row, number = (whole(student.get(key)) for key in ("row", "number"))
-    who = Student(row or place, texts["id"], number, texts["name"], texts["group"])
+    owner, part = student.get("owner", ""), whole(student.get("part")) or 0
+    who = Student(
+        row or place,
+        texts["id"],
+        number,
+        texts["name"],
+        texts["group"],
+        owner=owner if isinstance(owner, str) else "",
+        part=part,
+    )
     return Taker(who, settings, texts["code"], tuple(compute))
 
 

@@ -14,7 +14,7 @@ from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sheet_documents import FOOT
-from graphkin.drawing.field import A3, A4_AREA, Rect, SheetPaper
+from graphkin.drawing.field import A3, A4_AREA, A4_SIZE, Rect, SheetPaper
 from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of, fitting, room_in
 from graphkin.drawing.marks import LineMark, Mark, Page, Point, Polyline, Text, box, moved, reach
 from graphkin.drawing.richtext import known, measures
@@ -78,7 +78,7 @@ def stamped(page: Page, text: str, paper: SheetPaper = A3) -> Page:
     margin = SIDE / len(modules(text)) * QUIET
     full = [full_box for mark in page.marks for full_box in boxes(mark)]
     whole = (page.width, page.height) == (paper.width, paper.height)
-    for x, y in corners_on(paper, margin) if whole else corners_of_a4(margin):
+    for x, y in corners_on(paper, margin) if whole else corners_of_text(page, margin):
         needed = (x - margin, y - margin, x + SIDE + margin, y + SIDE + margin)
         if not any(overlap(needed, other) for other in full):
             marks = square(text, x, y)
@@ -99,12 +99,13 @@ def corners_on(paper: SheetPaper, margin: float) -> Iterator[tuple[float, float]
         x -= STEP
 
 
-def corners_of_a4(margin: float) -> Iterator[tuple[float, float]]:
-    """Places on an A4 page, from its top right corner down, then further to the left."""
+def corners_of_text(page: Page, margin: float) -> Iterator[tuple[float, float]]:
+    """Places on a page of text, from its top right corner down, then further to the left."""
+    low = A4_AREA[3] - A4_SIZE[1] + page.height
     x = A4_AREA[2] - SIDE - margin - 1
     while x > A4_AREA[0] + margin:
         y = A4_AREA[1] + margin + 1
-        while y < A4_AREA[3] - SIDE - margin:
+        while y < low - SIDE - margin:
             yield x, y
             y += STEP
         x -= STEP

@@ -38,7 +38,7 @@ from graphkin.documents.sheet_documents import (
     with_forces,
 )
 from graphkin.documents.view_names import MOTION_VIEWS
-from graphkin.drawing.field import paper_of
+from graphkin.drawing.field import paper_of, text_page
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import Ink
 from graphkin.drawing.symbol_markup import escape
@@ -192,7 +192,8 @@ class Sheets:
         whose, pivot = (self.whose.name, self.whose.code), next(iter(first.scene.frame.points), "")
         school = self.lab.house.header
         compute = self.taker.compute
-        return form(fields, points, compute, self.words, (title, name), whose, pivot, school)
+        said = fields, points, compute, self.words, (title, name), whose, pivot, school
+        return form(*said, text_page(first.paper.name))
 
     def asked(self) -> tuple[tuple[Item, ...], dict[str, Fraction]]:
         """The fields of the student's form, and the points of each."""

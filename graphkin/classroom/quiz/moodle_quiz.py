@@ -35,10 +35,12 @@ from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.classroom.variants.assign import Assigned, assigned
+from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import CLOCKWISE
+from graphkin.documents.sheet_documents import language_of
 from graphkin.drawing.richtext import plain
 from graphkin.text import Words
-from graphkin.writers.templates import from_template
+from graphkin.writers.templates import from_template, marked_up
 
 WHOLE = Fraction(1)
 
@@ -183,10 +185,12 @@ def asked(
 def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Question:
     """The question of one variant; ``code`` is printed on sheets where long data do not fit."""
     settings = {name: exact_text(value) for name, value in each.settings.items()}
-    variant_text = ", ".join(f"{name} = {value}" for name, value in settings.items())
+    mechanism = book.mechanism(settings)
+    words = language_of(mechanism, order.language)
+    data = variant(mechanism.scene, words, settings)
+    variant_text = ", ".join(map(plain, data))
     who = Student(each.student.row, variant_text, name=variant_text)
     sheets = Sheets(order, Taker(who, settings, code, each.computed))
-    words = sheets.words
     marker = book.marker(settings, each.computed)
     _, points = sheets.asked()
     found = gaps(marker, points, words)
@@ -200,7 +204,7 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
     ]
     shown = {
         "title": harmless(scene.titles.get(words.language, scene.title)),
-        "variant": harmless(variant_text),
+        "variant": gapless(", ".join(map(marked_up, data))),
         "printed": PRINTED,
         "pictures": [name for name, _ in files if name != PRINTED],
         "advice": advice(items, words, first_pivot(sheets.mechanism)),
@@ -220,7 +224,12 @@ def said(what: str, words: Words) -> str:
 
 def harmless(text: str) -> Markup:
     """A text near gaps, escaped so that Moodle does not read it as a gap."""
-    return Markup(escape(text).replace("{", SIGNS["{"]))
+    return gapless(escape(text))
+
+
+def gapless(markup: str) -> Markup:
+    """Browser markup in which Moodle reads no gap."""
+    return Markup(markup.replace("{", SIGNS["{"]))
 
 
 def files_of(sheets: Sheets, order: PrintOrder) -> list[tuple[str, bytes]]:

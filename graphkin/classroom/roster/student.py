@@ -12,6 +12,9 @@ class Student(Struct, frozen=True):
 
     ``number`` is the student's number in the group, None if the list has none. ``id`` keeps its
     leading zeros.
+
+    A student with several sheets has an entry for each ``part``, counted from 1. Its id is that of
+    the ``owner`` in the class list with the number of the part.
     """
 
     row: int
@@ -20,6 +23,13 @@ class Student(Struct, frozen=True):
     name: str = ""
     group: str = ""
     extra: Mapping[str, str] = field(default_factory=dict)
+    owner: str = ""
+    part: int = 0
+
+    @property
+    def whose(self) -> str:
+        """The id of the student in the class list."""
+        return self.owner or self.id
 
     @property
     def called(self) -> str:

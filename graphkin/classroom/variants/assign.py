@@ -18,7 +18,7 @@ from graphkin.classroom.grading.neighbours import (
 from graphkin.classroom.grading.standard import Standard
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.rules import Settings, settings
+from graphkin.classroom.lab.rules import Settings, settings, sheets
 from graphkin.classroom.roster.read_roster import Check
 from graphkin.classroom.roster.student import Student
 from graphkin.numbers.arithmetic import np
@@ -71,9 +71,12 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
     Data drawn from ranges are drawn again if they are unfair or too close to those of an earlier
     student, as often as the rule allows; the least unfair are kept.
 
+    A student with several positions gets an entry for each, all with the same draws.
+
     Raises RosterError for numbers whose formula gives values outside the scene's ranges. Raises it
     too for more students than can be compared with one another, if a limit requires the comparison.
     """
+    students = entries(lab, students, roster)
     if lab.fair.needs_keys and len(students) > MOST:
         found = message(
             "has {count} students, and [fair] of lab.toml limits apart or pencil",
@@ -85,6 +88,25 @@ def assigned(lab: Lab, students: Sequence[Student], roster: str = "roster") -> l
         refuse_misfits(lab, students, roster)
     every = fairest(lab, students)
     return spaced(lab, every) if lab.fair.needs_keys else every
+
+
+def entries(lab: Lab, students: Sequence[Student], roster: str) -> list[Student]:
+    """An entry for each sheet of each student. Raises RosterError if two get the same id."""
+    found = [each for student in students for each in sheets(lab.rule, student)]
+    taken = {student.id for student in students}
+    twins = [each for each in found if each.owner and each.id in taken]
+    if twins:
+        raise RosterError(
+            Problem(
+                InTable(roster, each.row).message,
+                message(
+                    'sheet {part} gets the id "{id}" of another student', part=each.part, id=each.id
+                ),
+                message("ids that do not end in a hyphen and a number"),
+            )
+            for each in twins
+        )
+    return found
 
 
 def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
@@ -108,11 +130,16 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
             known |= zip(new, held_against(lab, list(new.values())), strict=True)
             held = [known[name] for name in names]
             room += with_room(lab, kept, list(zip(block, held, strict=True)))
-            if lab.rule.draws and lab.fair.apart is not None and longest(room):
+            if lab.rule.is_drawn and lab.fair.apart is not None and longest(room):
                 room += [Fault("room")] * (len(waiting) - len(room))
                 break
         near = {i: fault for i, fault in zip(waiting, room, strict=True) if fault is not None}
-        again = [i for i in near if found[i].attempt + 1 < lab.rule.attempts]
+        owners = {found[i].student.whose for i in near}
+        again = [
+            i
+            for i, each in enumerate(found)
+            if each.student.whose in owners and each.attempt + 1 < lab.rule.attempts
+        ]
         vain = vain + len(waiting) if len(near) == len(waiting) else longest(room)
         if not again or vain >= VAIN:
             for i, fault in near.items():
@@ -121,9 +148,13 @@ def spaced(lab: Lab, every: list[Assigned]) -> list[Assigned]:
         since = [found[i].attempt + 1 for i in again]
         redrawn = fairest(lab, [found[i].student for i in again], since)
         waiting = []
+        spoilt = {each.student.whose for each in redrawn if not each.fair}
         for i, each in zip(again, redrawn, strict=True):
-            found[i] = each if each.fair else replace(found[i], faults=(near[i],))
-            waiting += [i] if each.fair else []
+            if each.student.whose not in spoilt:
+                found[i] = each
+                waiting.append(i)
+            elif i in near:
+                found[i] = replace(found[i], faults=(near[i],))
         for i in near.keys() - {*again}:
             found[i] = replace(found[i], faults=(near[i],))
     return found
@@ -201,10 +232,12 @@ def check_of(lab: Lab) -> Check | None:
 
 def misfits(lab: Lab, student: Student) -> list[Problem]:
     """The problems of a formula's data for a student: values that the scene does not allow."""
-    try:
-        given = settings(lab, student)
-    except Exception as error:
-        return list(problems_of(error))
+    every: list[Settings] = []
+    for sheet in sheets(lab.rule, student):
+        try:
+            every.append(settings(lab, sheet))
+        except Exception as error:
+            return list(problems_of(error))
     parameters = lab.mechanism.scene.parameters
     return [
         Problem(
@@ -218,7 +251,7 @@ def misfits(lab: Lab, student: Student) -> list[Problem]:
             ),
             range_words(each),
         )
-        for name, value in given.items()
+        for name, value in dict.fromkeys(pair for given in every for pair in given.items())
         if (wrong := misfit(each := parameters[name], value))
     ]
 
@@ -228,26 +261,40 @@ def fairest(lab: Lab, students: Sequence[Student], since: Sequence[int] = ()) ->
 
     ``since`` are the attempts from which each student starts; all start from 0 if it is left out.
     """
-    found: dict[int, Assigned] = {}
+    groups: dict[str, list[int]] = {}
+    for i, student in enumerate(students):
+        groups.setdefault(student.whose, []).append(i)
+    found: dict[str, list[Assigned]] = {}
     attempts = list(since) or [0] * len(students)
-    waiting = list(range(len(students)))
+    waiting = list(groups)
     while waiting:
-        many = [settings(lab, students[i], attempts[i]) for i in waiting]
-        names = [tuple(each.items()) for each in many]
-        different = dict(zip(names, many, strict=True))
+        tried = [i for owner in waiting for i in groups[owner]]
+        many = {i: settings(lab, students[i], attempts[i]) for i in tried}
+        names = {i: tuple(each.items()) for i, each in many.items()}
+        different = {names[i]: many[i] for i in tried}
         place = {name: index for index, name in enumerate(different)}
         fairness = judged(lab, list(different.values()))
-        for given, name, i in zip(many, names, waiting, strict=True):
-            drawn = one(students[i], given, attempts[i], fairness, place[name])
-            found[i] = min(found.get(i, drawn), drawn, key=unfairness)
-            attempts[i] += 1
-        waiting = [i for i in waiting if not found[i].fair and attempts[i] < lab.rule.attempts]
-    return [found[i] for i in range(len(students))]
+        for owner in waiting:
+            drawn = [
+                one(students[i], many[i], attempts[i], fairness, place[names[i]])
+                for i in groups[owner]
+            ]
+            found[owner] = min(found.get(owner, drawn), drawn, key=unfairness)
+            for i in groups[owner]:
+                attempts[i] += 1
+        waiting = [
+            owner
+            for owner in waiting
+            if not all(each.fair for each in found[owner])
+            and attempts[groups[owner][0]] < lab.rule.attempts
+        ]
+    places = {i: found[owner][k] for owner, group in groups.items() for k, i in enumerate(group)}
+    return [places[i] for i in range(len(students))]
 
 
-def unfairness(data: Assigned) -> tuple[bool, int]:
+def unfairness(every: Sequence[Assigned]) -> tuple[int, int]:
     """The sort key for the least unfair data: drawable first, then by number of faults."""
-    return data.flattest is None, len(data.faults)
+    return sum(each.flattest is None for each in every), sum(len(each.faults) for each in every)
 
 
 def one(

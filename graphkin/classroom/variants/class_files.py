@@ -134,7 +134,7 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
         if not each.fair
     ]
     yield from labelled("unfair", listed((*WHO, "data", "limits"), unfair))
-    if lab.rule.draws:
+    if lab.rule.is_drawn:
         again = [(*who(each.student), f"{each.attempt + 1}") for each in found if each.attempt]
         yield from labelled("again", listed((*WHO, "draws"), again))
     small = [(*who(each.student), " ".join(each.computed)) for each in found if each.computed]
@@ -155,8 +155,10 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("apart", apart_lines(neighbours, names, "id"))
     unsure = list(zip(names, map(unsure_fields, standards), strict=True))
     yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
-    if not lab.rule.draws:
-        yield from labelled("note", alike_lines([each.student for each in found]))
+    if not lab.rule.is_drawn:
+        yield from labelled(
+            "note", alike_lines([each.student for each in found if each.student.part < 2])
+        )
 
 
 def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[str]:

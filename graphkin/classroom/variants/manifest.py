@@ -14,7 +14,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, SeveralValues, ValueList
 from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.variants.assign import Assigned
 
@@ -65,6 +65,7 @@ def entry(each: Assigned, salt: str) -> dict[str, Any]:
         "row": student.row,
         "number": student.number,
         "id": student.id,
+        **({"owner": student.owner, "part": student.part} if student.owner else {}),
         "name": student.name,
         "group": student.group,
         "code": code(salt, student.id),
@@ -91,11 +92,25 @@ def code(salt: str, student: str) -> str:
 
 def written_rule(rule: LabRule) -> dict[str, Any]:
     """A rule as lab.toml writes it, numbers as exact texts."""
-    formulas = {"set": {name: formula.text for name, formula in rule.settings.items()}}
+    formulas: dict[str, Any] = {
+        "set": {name: formula.text for name, formula in rule.settings.items()}
+    }
+    if rule.positions is not None:
+        formulas["positions"] = written_positions(rule.positions)
+        if rule.is_drawn:
+            formulas["tries"] = rule.tries
     if not rule.draws:
         return formulas
     draws = {name: written_draw(values) for name, values in rule.draws.items()}
-    return {**(formulas if rule.settings else {}), "draw": draws, "tries": rule.tries}
+    given = rule.settings or rule.positions is not None
+    return {**(formulas if given else {}), "draw": draws, "tries": rule.tries}
+
+
+def written_positions(several: SeveralValues) -> dict[str, Any]:
+    """Several values of a parameter as lab.toml writes them, with the range from which they are."""
+    if several.range is None:
+        return {several.parameter: [each.text for each in several.formulas]}
+    return {several.parameter: several.count, "of": written_draw(several.range)}
 
 
 def written_draw(values: Range | ValueList) -> Any:

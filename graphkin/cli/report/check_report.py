@@ -25,7 +25,7 @@ from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
 from graphkin.loops.freedom import true_mobility
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, IMPERIAL, Cam, Driver, Scene, joined_words, link_words
+from graphkin.scene.model import FRAME, Cam, Driver, Scene, joined_words, link_words
 from graphkin.scene.quantity import LENGTHS, SI, exact
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count, driver_problem
@@ -189,7 +189,7 @@ def structure(scene: Scene) -> Iterator[str]:
     yield from labelled("loops", loop_lines(scene))
     drivers = [driver_words(scene, driver) for driver in scene.drivers] or ["none"]
     yield from labelled("drivers", drivers)
-    yield from labelled("put in", list(keeper_lines(scene)))
+    yield from labelled("put in", [*keeper_lines(scene), *module_lines(scene)])
 
 
 def keeper_lines(scene: Scene) -> Iterator[str]:
@@ -209,6 +209,26 @@ def keeper_lines(scene: Scene) -> Iterator[str]:
             what = f"{'-'.join(link.points)}, the line of centres"
         pair = f"the wheel of {link_words(wheel)} on {link_words(path.on)}"
         yield f"link {name}: {what}; it keeps {pair} and takes nothing from the motion"
+
+
+def module_lines(scene: Scene) -> Iterator[str]:
+    """A line for each module that the teeth and a distance give, or that the program proposes."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for link in scene.every_link:
+        for wheel in link.wheels:
+            if wheel.sized and wheel.radius is not None and wheel.teeth is not None:
+                size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
+                module = f"{float(size):.6g} {wheel.radius.written_unit}"
+                whose = link_words(link.name)
+                teeth = wheel.teeth.written(scene.values)
+                found.setdefault((wheel.sized, module), []).append(f"{teeth} ({whose})")
+    for (sized, module), wheels in found.items():
+        many = f"the wheels with {listed(wheels)} teeth"
+        if sized == "distance":
+            yield f"module {module} of {many}: it follows from the distance of the centres"
+        else:
+            yield f"module {module} of {many}: proposed, as the scene has no length for them;"
+            yield "  angular velocities do not depend on it, velocities of points do"
 
 
 # --- pairs and the count -------------------------------------------------------------------------
@@ -445,6 +465,10 @@ class Checking:
             scales(self.mechanism)
 
 
+DECIMALS = {"mm": 3, "cm": 4, "m": 6, "in": 3, "ft": 4}
+"""The decimals of coordinates, by the unit of lengths."""
+
+
 def closure_lines(choice: Choice, scene: Scene) -> list[str]:
     """Both closures of a dyad, with a mark on the chosen one."""
     of = f"the angle of link {choice.pin}" if choice.is_turned else choice.pin
@@ -457,9 +481,9 @@ def closure_lines(choice: Choice, scene: Scene) -> list[str]:
         elif choice.is_turned:
             where = f"{degrees(phase(closure.place)) + 0.0:.3f}°"
         else:
-            unit = scene.units["length"] if scene.units["length"] in IMPERIAL else "mm"
-            one = 1 / float(LENGTHS[unit])
-            x, y = (f"{one * part + 0.0:.3f}" for part in (closure.place.real, closure.place.imag))
+            unit = scene.units["length"]
+            one, parts = 1 / float(LENGTHS[unit]), (closure.place.real, closure.place.imag)
+            x, y = (f"{one * part + 0.0:.{DECIMALS[unit]}f}" for part in parts)
             where = f"({x}, {y}) {unit}"
         rest = f"then {closure.fails} cannot be drawn" if closure.fails else "the rest closes"
         if closure.unfit:

@@ -63,7 +63,8 @@ def force_lines(found: Record) -> list[str]:
     if rows:
         heads = ["reaction", "on link", "Fx, N", "Fy, N", "F, N", "moment, N·m"]
         lines += ["", *table(heads, rows)]
-    for link, each in found.get("balance", {}).items():
+    for name, each in found.get("balance", {}).items():
+        link = name.replace("-", " against ")
         if "moment" in each:
             lines += ["", f"balance  moment on link {link}: {each['moment']:.6g} N·m"]
         else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from fractions import Fraction
 
 from msgspec import Struct
@@ -69,18 +69,18 @@ def parameters(scene: Scene, words: Words) -> list[str]:
     return [parameter(scene, words, name) for name in scene.values if name in put_in(scene)]
 
 
-def variant(scene: Scene, words: Words) -> list[str]:
-    """The parameters that distinguish variants: those with a range and those in expressions.
+def variant(scene: Scene, words: Words, names: Collection[str] = ()) -> list[str]:
+    """The parameters that distinguish variants, as markup.
 
-    A parameter that is only the position or the speed of a driver gets the driver's symbol.
+    These are ``names``; without them, those with a range and those in expressions. A parameter that
+    is only the position or the speed of a driver gets the driver's symbol.
     """
     ranged = {name for name, each in scene.parameters.items() if each.minimum is not None}
     put = put_in(scene)
+    wanted = names or ranged | put
     letters = {lone(scene, each.speed): speed_symbol(each) for each in scene.drivers}
     letters |= {lone(scene, each.position): angle_symbol(scene, each) for each in scene.drivers}
-    text_of_value = (
-        (name, *as_set(scene, words, name)) for name in scene.values if name in ranged | put
-    )
+    text_of_value = ((name, *as_set(scene, words, name)) for name in scene.values if name in wanted)
     return [
         f"{letter if name in put else letters.get(name, letter)} = {value}"
         for name, letter, value in text_of_value
@@ -356,6 +356,10 @@ def aside(drawing: Drawing, slide: Slide) -> dict[str, str]:
     return {"offset": amount, "side": words("page.left" if sign > 0 else "page.right")}
 
 
+ROUNDED = 6
+"""Length of a module that is written in full, where the scene does not write it."""
+
+
 def wheels(scene: Scene, words: Words) -> Iterator[str]:
     """The wheels with centre and radius; for gears, number of teeth and module."""
     for link in (scene.frame, *scene.links.values()):
@@ -380,10 +384,16 @@ def centre_and_size(scene: Scene, words: Words, wheel: Wheel, sign: str) -> dict
 
 
 def module(scene: Scene, words: Words, wheel: Wheel) -> str:
-    """The module of a gear: the diameter of its pitch circle over its number of teeth."""
+    """The module of a gear: the diameter of its pitch circle over its number of teeth.
+
+    A module that follows from the distance of the centres is rounded.
+    """
     assert wheel.radius is not None and wheel.teeth is not None
     size = 2 * wheel.radius.number(scene.values) / wheel.teeth.number(scene.values)
-    return f"{words.decimal(shortest(size))} {wheel.radius.written_unit}"
+    text = shortest(size)
+    if wheel.sized and len(text) > ROUNDED:
+        text = f"{float(size):.{ROUNDED - 1}g}"
+    return f"{words.decimal(text)} {wheel.radius.written_unit}"
 
 
 def tracks(drawing: Drawing) -> Iterator[str]:
@@ -421,9 +431,9 @@ def tracks(drawing: Drawing) -> Iterator[str]:
 def wheels_of(drawing: Drawing, link: Link, rolling: Rolling) -> tuple[str, str]:
     """The names of a wheel and of the wheel on which it rolls or to which a belt joins it."""
     if rolling.belt is not None:
-        own, there = rolling.belt.wheels
         on = drawing.scene.link(rolling.on)
-        return link.wheel_sign(link.wheels[own]), on.wheel_sign(on.wheels[there])
+        own, there = rolling.pairs(link.wheels, on.wheels)[0]
+        return link.wheel_sign(own), on.wheel_sign(there)
     touch = next((each for each in drawing.standing.touches if each.rolling is rolling), None)
     if touch is None:
         return link.name, rolling.on
@@ -666,7 +676,8 @@ def of_scales(drawing: Drawing) -> Iterator[str]:
     m = drawing.scales.of_bar(drawing.kind)
     stated = drawing.kind == "acceleration" and drawing.scene.sheet.ka is not None
     if m not in (0, 1) and not stated:
-        yield drawing.words(f"page.enlarged_{drawing.kind}", m=figure(drawing, m))
+        change = "enlarged" if m > 1 else "reduced"
+        yield drawing.words(f"page.{change}_{drawing.kind}", m=figure(drawing, m))
 
 
 def of_driver(

@@ -279,11 +279,13 @@ class LinkPoses(Struct, frozen=True, dict=True):
     def on_wheel(self, own: list[Disc], rolling: Rolling) -> Touch | None:
         """The contact with a circular track, on the line of centres of the two wheels."""
         others = [disc for disc in self.discs if disc.link == rolling.on]
-        if rolling.belt is not None:
-            return self.by_belt(own, others, rolling, rolling.belt)
-        pairs = [(one, other) for one in own for other in others]
+        wheels = self.scene.link(own[0].link).wheels if own else ()
+        meant = rolling.pairs(wheels, self.scene.link(rolling.on).wheels) if wheels else []
+        pairs = [(a, b) for a in own for b in others if (a.wheel, b.wheel) in meant]
         if not pairs:
             return None
+        if rolling.belt is not None:
+            return self.by_belt(*pairs[0], rolling, rolling.belt)
 
         def miss(pair: tuple[Disc, Disc]) -> float:
             one, other = pair
@@ -299,16 +301,8 @@ class LinkPoses(Struct, frozen=True, dict=True):
         way = -apart / abs(apart) if other.wheel.inside else apart / abs(apart)
         return Touch(rolling, one, one.centre + one.radius * way, 1j * way, None, other)
 
-    def by_belt(
-        self, own: list[Disc], others: list[Disc], rolling: Rolling, belt: Belt
-    ) -> Touch | None:
+    def by_belt(self, one: Disc, other: Disc, rolling: Rolling, belt: Belt) -> Touch:
         """The contact of a belt: where its strands meet the line of centres."""
-        wheels = self.scene.link(own[0].link).wheels if own else ()
-        tracks = self.scene.link(rolling.on).wheels
-        one = next((d for d in own if d.wheel is wheels[belt.wheels[0]]), None)
-        other = next((d for d in others if d.wheel is tracks[belt.wheels[1]]), None)
-        if one is None or other is None:
-            return None
         apart = other.centre - one.centre
         share = 0.5
         if belt.crossed or not of_one_size(one.wheel, other.wheel):

@@ -199,7 +199,7 @@ def put_locus(plot: Plot, number: int, name: str, text: str, parts: tuple[int, i
     if drawn:
         end, part = drawn[-1]
         own = name, number
-        label = Label(text, "construction", end, 2.5, *own, priority=-1, part=part)
+        label = Label(text, "construction", end, 2.5, *own, priority=-1, part=part, spare=True)
         plot.board.labels.append(label)
 
 
@@ -262,8 +262,11 @@ def put_arrow(plot: Plot, number: int, step: Step, value: Any) -> None:
         note_tiny(plot, name, OnPaper(length))
         return
     subject = middle(tail, tip) if short else (tail, tip)
+    ask = plot.drawing.scene.ask
+    wanted = ask.acceleration if plot.drawing.kind == "acceleration" else ask.velocity
+    spare = bool(vector.sign or vector.p or vector.q not in wanted)
     plot.board.labels.append(
-        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=True)
+        Label(name, cls, subject, 2.5, step.name, number, priority=1, led=short, spare=spare)
     )
 
 

@@ -66,7 +66,7 @@ from graphkin.structure.groups import (
     Train,
     other_of,
 )
-from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding, pairs, sharers
+from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding, pairs
 
 
 def undrawn(scene: Scene, groups: Sequence[Group]) -> Group | None:
@@ -204,13 +204,10 @@ class ForcePlan:
         self.polygons = count(1)
         self.reactions: list[PairForce] = []
         self.balances: list[DriverForce] = []
-        self.known: dict[str, int] = {FRAME: 0}
 
     def write(self, groups: Sequence[Group]) -> None:
         """Draw every group, then the lever of a mechanism with one driver."""
         driving: list[tuple[Crank | Driven | Cylinder, int]] = []
-        order = enumerate(groups, 1)
-        self.known |= {link: number for number, group in order for link in group.links}
         for group in reversed(groups):
             match group:
                 case Dyad(inner=Pin()):
@@ -779,7 +776,9 @@ class ForcePlan:
         """Enter the balance of a driver on a link, and pass its opposite to the link it turns."""
         sense = 1 if driver.link == link else -1
         name = ("M_" if turns else "F_") + sub("b", link)
-        self.balances.append(DriverForce(driver.link, link, name, step, turns, sense))
+        self.balances.append(
+            DriverForce(self.pen.scene.driver_name(driver), link, name, step, turns, sense)
+        )
 
     def crank(self, group: Crank) -> int:
         """The balancing moment of a crank, and the reaction in its pivot."""
@@ -792,8 +791,7 @@ class ForcePlan:
         if against != FRAME:
             passed = LinkForce(f"{name},{against}", "balance", couple=self.back(moment))
             self.acting[against].append(passed)
-        earlier = (e for e in sharers(pen.scene)[group.pivot] if self.known[e] < self.known[link])
-        self.closed_at("crank", link, Pin(group.pivot, (next(earlier), link)))
+        self.closed_at("crank", link, Pin(group.pivot, (group.base, link)))
         return moment
 
     def driven(self, group: Driven) -> int:

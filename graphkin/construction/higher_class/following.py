@@ -16,6 +16,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.higher_class.closure_solver import HIDDEN, Closures, Trying
+from graphkin.construction.higher_class.several_trials import SeveralTrials
 from graphkin.numbers.arithmetic import np, phase
 from graphkin.numbers.common_roots import roots_beside
 
@@ -518,7 +519,8 @@ class FollowedClosure(Struct, frozen=True, eq=False):
             return rows
         if trying.several:
             for k in rest:
-                rows[k] = self.reached(group, float(at[k]), int(after[k]))
+                over = self.over_flat(group, float(at[k]), between[k], int(after[k]))
+                rows[k] = self.reached(group, float(at[k]), int(after[k])) if over is None else over
             return rows
         every = group.closures(at[rest])
         for n, k in enumerate(rest):
@@ -530,6 +532,23 @@ class FollowedClosure(Struct, frozen=True, eq=False):
                     rows[k] = found[away.argmin()]
                     break
         return rows
+
+    def over_flat(self, group: GroupOnWay, at: float, between: Reals, after: int) -> Reals | None:
+        """The row (n + k + 1) at one u where a dyad is stretched flat between two places.
+
+        None where none of their signs differ, or where nothing closes nearby.
+        """
+        signs, trying = self.signs[after - 1], group.trying
+        if not isinstance(trying, SeveralTrials) or (signs == self.signs[after]).all():
+            return None
+        room = abs(self.tried[after] - self.tried[after - 1]).max() * BETWEEN + SURE
+        known = group.known(np.array([at]))
+        with np.errstate(all="ignore"):
+            found = trying.closed_over_flat(known, between, signs, room)
+            if found is None:
+                return None
+            sine = trying.sines(known, *(each[None] for each in found))
+        return np.concatenate([*found, sine]) if sine[0] > HIDDEN else None
 
     def reached(self, group: GroupOnWay, at: float, after: int) -> Reals:
         """The row (n + k + 1) at one u, by short steps from the places before; NaN where lost."""

@@ -18,6 +18,7 @@ from graphkin.numbers.arithmetic import batch_kind, np
 from graphkin.numbers.common_roots import (
     Array,
     Cells,
+    FlatDyad,
     common_roots,
     corners_of,
     joined,
@@ -127,6 +128,39 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         tried = self.valued(share, scales[owner[row]])
         touching = np.zeros(row.size, dtype=bool)
         return self.ordered(known, size, owner[row], tried, signs[row], touching)
+
+    def closed_over_flat(
+        self, known: Sequence[Any], tried: Array, signs: Array, room: float
+    ) -> tuple[Array, Array] | None:
+        """The trial values (n,) and signs (k,) that close near given ones where a dyad is flat.
+
+        Either sign of the dyad may hold there. None where nothing closes within ``room``.
+        """
+        rows = sign_table(len(self.signs))
+        table, first = np.array(rows, dtype=float), [array[0] for array in known]
+
+        def here(row: Array, share: Array) -> tuple[list[Array], Array, Array]:
+            return [array[:1] for array in known], share, table[row]
+
+        cells = Cells(np.array([rows.index(tuple(signs))]), tried[None])
+        half, ranges = (
+            np.full(len(tried), room),
+            np.full((len(table), len(tried)), max(map(abs, first))),
+        )
+        found = list[tuple[Array, Array]]()
+        for k, choice in enumerate(self.choices):
+            if choice is not None:
+                reach = partial(lambda k, *each: self.drawable(k, *here(*each)), k)
+                bit = 1 << (len(self.signs) - 1 - k)
+                dyad = FlatDyad(lambda *each: self.misfits(*here(*each)), reach, bit)
+                found += dyad.fits(cells, half, ranges)
+        if not found:
+            return None
+        code, share = (np.concatenate(column) for column in zip(*found, strict=True))
+        away = abs(share - tried).max(axis=1)
+        if not away.size or not away.min() <= room:
+            return None
+        return share[away.argmin()], table[code[away.argmin()]]
 
     def grid_of_shares(self) -> tuple[Array, Array]:
         """The start and the range of the shares of each unknown."""

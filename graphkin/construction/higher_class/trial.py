@@ -237,9 +237,10 @@ class Trial(Struct, frozen=True, dict=True):
             row = np.linspace(-FAR, FAR, 3 * SAMPLES + 1)
         else:
             reach = self.scales(known, size)[:, 0]
-            turns = np.nanmax(abs(reach / self.at_start(known, self.first.rim)))
-            count = np.clip(A_TURN * turns / np.pi, 2 * SAMPLES, MOST // 4)
-            row = np.linspace(-1, 1, int(np.nan_to_num(count, nan=2 * SAMPLES)) + 1)
+            turns = abs(reach / self.at_start(known, self.first.rim))
+            most = np.max(turns, initial=0.0, where=~np.isnan(turns))
+            count = np.clip(A_TURN * most / np.pi, 2 * SAMPLES, MOST // 4)
+            row = np.linspace(-1, 1, int(count) + 1)
         return np.broadcast_to(row, (size, len(row)))
 
     def work(self, known: Sequence[Any]) -> int:

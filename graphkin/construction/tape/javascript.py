@@ -47,7 +47,8 @@ LONG = 6
 """Number of characters from which a repeated number gets a name."""
 BINDING = {"mul": 3, "over": 3, "add": 2, "sub": 2, "less": 1, "at_most": 1}
 """Precedence of operators; an argument with higher precedence needs no brackets."""
-DIGITS = "abcdefghijklmnopqrstuvwxyz"
+SIGNS_OF_NAMES = "abcdefghijklmnopqrstuvwz$_ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+"""What names begin with."""
 
 
 def script_source(
@@ -89,7 +90,7 @@ class Writer:
                 text, deep = name, 0
             self.text[number], self.depth[number] = text, deep
         if named:
-            yield "const " + ",\n".join(named) + ";"
+            yield "const " + ",".join(named) + ";"
         results = ",".join([self.text[number] for number in self.outputs])
         yield f"[{results}].forEach((v,i)=>{{y[i]=+v}});"
 
@@ -127,6 +128,6 @@ def written(value: float) -> str:
 
 
 def short_name(number: int) -> str:
-    """The name of a constant: one letter and digits, so that it is never a keyword."""
-    rest, letter = divmod(number, len(DIGITS))
-    return f"{DIGITS[letter]}{rest or ''}" if DIGITS[letter] not in "xy" else f"_{letter}{rest}"
+    """The name of a constant: one sign and digits, so that it is never a keyword, x or y."""
+    rest, sign = divmod(number, len(SIGNS_OF_NAMES))
+    return f"{SIGNS_OF_NAMES[sign]}{rest or ''}"

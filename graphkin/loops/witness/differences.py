@@ -404,8 +404,8 @@ def of_jerks(solved: LoopSolution, ours: Mapping[str, Any], scales: Magnitudes) 
     every, bar = jerks(solved), solved.loops.size
     natural = scales.acceleration * np.maximum(scales.omega, scales.speed / bar)
     scale = or_one(np.maximum(largest(every.found, every.bound), FLOOR * natural))
-    which = [solved.motion.names[name] for name in ours]
-    return apart(solved, ours, every.found[:, which], every.bound[:, which], scale)
+    theirs, bound = (np.stack(each, axis=1) for each in zip(*map(every.point, ours), strict=True))
+    return apart(solved, ours, theirs, bound, scale)
 
 
 def of_links(rate: str) -> Route:

@@ -3,8 +3,9 @@
 
 const MOST = 30; // hits shown
 const root = document.body.dataset.root;
-const element = (tag, text = "") => Object.assign(document.createElement(tag), { textContent: text });
-const byId = (id) => document.getElementById(id);
+const element = (tag, text = "") =>
+  Object.assign(document.createElement(tag), { textContent: text });
+const byId = id => document.getElementById(id);
 
 // --- search --------------------------------------------------------------------------------------
 
@@ -15,7 +16,11 @@ function fit(section, words) {
   const text = section.words.toLowerCase();
   let sum = 0;
   for (const word of words) {
-    const found = (title === word) * 60 + title.includes(word) * 20 + page.includes(word) * 6 + text.includes(word);
+    const found =
+      Number(title === word) * 60 +
+      Number(title.includes(word)) * 20 +
+      Number(page.includes(word)) * 6 +
+      Number(text.includes(word));
     if (!found) return 0;
     sum += found;
   }
@@ -28,8 +33,12 @@ function excerpt(section, words) {
   const at = Math.max(text.toLowerCase().indexOf(words[0]), 0);
   const start = Math.max(at - 60, 0);
   const line = element("span");
-  const piece = (start ? "… " : "") + text.slice(start, start + 180) + (start + 180 < text.length ? " …" : "");
-  const any = new RegExp(`(${words.map((word) => word.replace(/[^\p{L}\p{N}]/gu, "\\$&")).join("|")})`, "giu");
+  const piece =
+    (start ? "… " : "") + text.slice(start, start + 180) + (start + 180 < text.length ? " …" : "");
+  const any = new RegExp(
+    `(${words.map(word => word.replace(/[^\p{L}\p{N}]/gu, "\\$&")).join("|")})`,
+    "giu",
+  );
   piece.split(any).forEach((part, i) => line.append(i % 2 ? element("mark", part) : part));
   return line;
 }
@@ -38,13 +47,19 @@ function search() {
   const words = byId("sought").value.toLowerCase().split(/\s+/).filter(Boolean);
   byId("hits").hidden = !words.length;
   if (!words.length) return;
-  const hits = SECTIONS.map((section) => [fit(section, words), section]).filter(([sum]) => sum);
-  hits.sort((one, other) => other[0] - one[0]);
-  byId("count").textContent = hits.length > MOST ? `${hits.length} sections, the best ${MOST}:` : `${hits.length} sections`;
+  const hits = SECTIONS.map(section => ({ sum: fit(section, words), section })).filter(
+    ({ sum }) => sum,
+  );
+  hits.sort((one, other) => other.sum - one.sum);
+  byId("count").textContent =
+    hits.length > MOST ? `${hits.length} sections, the best ${MOST}:` : `${hits.length} sections`;
   byId("found").replaceChildren(
-    ...hits.slice(0, MOST).map(([, section]) => {
+    ...hits.slice(0, MOST).map(({ section }) => {
       const item = element("li");
-      const link = element("a", section.title === section.page ? section.page : `${section.page}: ${section.title}`);
+      const link = element(
+        "a",
+        section.title === section.page ? section.page : `${section.page}: ${section.title}`,
+      );
       link.href = root + section.to;
       link.addEventListener("click", () => (byId("hits").hidden = true));
       item.append(link, excerpt(section, words));
@@ -54,11 +69,11 @@ function search() {
 }
 
 byId("sought").addEventListener("input", search);
-byId("search").addEventListener("submit", (event) => {
+byId("search").addEventListener("submit", event => {
   event.preventDefault();
   byId("found").querySelector("a")?.click();
 });
-document.addEventListener("keydown", (event) => {
+document.addEventListener("keydown", event => {
   if (event.key === "Escape") byId("hits").hidden = true;
   if (event.key === "/" && !/^(INPUT|TEXTAREA|SELECT)$/.test(document.activeElement.tagName)) {
     event.preventDefault();
@@ -85,7 +100,7 @@ function gallery(filter) {
     if (grid.children.length) kind.after(grid);
   }
   const cards = [...document.querySelectorAll(".card")];
-  const shows = new Map(cards.map((card) => [card, card.dataset.shows.split(", ").filter(Boolean)]));
+  const shows = new Map(cards.map(card => [card, card.dataset.shows.split(", ").filter(Boolean)]));
   const effects = [...new Set([...shows.values()].flat())].sort();
   for (const effect of effects) {
     const label = element("label");
@@ -94,13 +109,15 @@ function gallery(filter) {
     filter.querySelector("fieldset").append(label);
   }
   const update = () => {
-    const wanted = [...filter.querySelectorAll(":checked")].map((box) => box.value);
-    for (const [card, own] of shows) card.hidden = !wanted.every((effect) => own.includes(effect));
+    const wanted = [...filter.querySelectorAll(":checked")].map(box => box.value);
+    for (const [card, own] of shows) card.hidden = !wanted.every(effect => own.includes(effect));
     for (const grid of document.querySelectorAll(".cards")) {
-      const empty = [...grid.children].every((card) => card.hidden);
-      grid.hidden = grid.previousElementSibling.hidden = empty;
+      const empty = !grid.querySelector(":scope > :not([hidden])");
+      grid.hidden = empty;
+      grid.previousElementSibling.toggleAttribute("hidden", empty);
     }
-    byId("left").textContent = `${cards.filter((card) => !card.hidden).length} of ${cards.length} scenes`;
+    byId("left").textContent =
+      `${cards.filter(card => !card.hidden).length} of ${cards.length} scenes`;
   };
   filter.addEventListener("change", update);
   document.querySelector("main > h2").before(filter);

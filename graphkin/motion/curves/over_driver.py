@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import (
     BALANCING_FORCE,
@@ -23,31 +24,17 @@ from graphkin.construction.core.quantities import (
     names_asked,
 )
 from graphkin.construction.core.solution import Solution
+from graphkin.drawing.marks import Page
+from graphkin.drawing.style import HUES
+from graphkin.drawing.symbol_markup import escape
+from graphkin.motion.curves.charts import INK, AcrossAxis, ChartCurve, ChartPanel, Upright, stacked
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.driving import TURN
+from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Scene
 from graphkin.scene.quantity import SI
-from graphkin.writers.plot_style import (
-    COLOURS,
-    DASHES,
-    FAINT,
-    INK,
-    WARNING,
-    colour,
-    dash,
-    figure_title,
-    legend,
-    new_figure,
-    panel_heading,
-    some_of,
-    span_of,
-    subscripted,
-)
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
     from graphkin.motion.forces_along import ForcesAlong
 
 Reals = np.ndarray[tuple[int], np.dtype[np.float64]]
@@ -171,36 +158,35 @@ def turning_links(scene: Scene, solution: Solution) -> list[str]:
 # --- the figures over the driver ------------------------------------------------------------------
 
 
-WIDTH = 8.0
-PANEL = 2.15
-"""Height of a panel in inches; title and axis take 0.9 more."""
 MOST_PANELS = 6
-MOST_CURVES = 8
-"""The most curves in one panel: the number of colours, and of names in a legend's line."""
+MOST_CURVES = len(HUES)
+"""The most curves in one panel: the number of hues."""
 LINE = 84
-"""Letters above a panel that fit on one line."""
-NAMED = 11
-"""Letters that the stroke and the name of a curve take up."""
-WORDS_WIDE, LETTER_TALL, NARROW = 0.03, 0.027, 0.01
-"""Words along a line: their width as a share of the axis, then a letter and the clearance.
-
-The last two are shares of a panel's height.
-"""
+"""The most letters of a heading that names the lines of links."""
 TURNS = (15, 30, 45, 60, 90, 180, 360)
 """Steps of an axis of angles in degrees."""
 TICKS = 13
 LEAST_TICKS = 2
 """The fewest steps for ticks at whole parts of a turn on an axis of angles."""
 
-Curve = tuple[str, np.ndarray, str, object]
-"""A label, values, a colour and a stroke."""
+
+def indexed(letter: str, name: str) -> str:
+    """A letter with a name as its index, as markup."""
+    return f"*{letter}*_{{{escape(lettered(name))}}}"
 
 
-def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
+def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]:
+    """The first names that fit into a figure, and words for the rest."""
+    if len(names) <= most:
+        return list(names), ""
+    return list(names[:most]), f" ({most} of {len(names)} {noun}; the table holds all)"
+
+
+def pictures(found: Sampled) -> dict[str, Callable[[], Page]]:
     """The figures of a cycle by name, each drawn when called."""
     scene, solution = found.scene, found.solution
     points = moving_points(scene, solution)
-    drawn: dict[str, Callable[[], Figure]] = {}
+    drawn: dict[str, Callable[[], Page]] = {}
     for quantity, name in PLURALS.items():
         if any(getattr(solution.points[p], quantity) is not None for p in points):
             drawn[name] = partial(of_points, found, points, quantity)
@@ -216,7 +202,7 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Figure]]:
     return drawn
 
 
-def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
+def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Page:
     """A panel for each point with its components and its magnitude."""
     letter, unit, factor = MOTION[quantity].letter, MOTION[quantity].unit, 1.0
     if quantity == "position":
@@ -226,45 +212,49 @@ def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Figure:
     panels = []
     for name in shown:
         value = np.asarray(getattr(found.solution.points[name], quantity)) * factor
+        along = value.real, value.imag
         if quantity == "position":
-            curves: list[Curve] = [
-                (subscripted("x", name), value.real, COLOURS[0], DASHES[0]),
-                (subscripted("y", name), value.imag, COLOURS[1], DASHES[1]),
+            curves = [
+                ChartCurve(indexed(axis, name), part, hue)
+                for hue, (axis, part) in enumerate(zip("xy", along, strict=True))
             ]
         else:
+            sign = indexed(letter, name)
             curves = [
-                (subscripted(letter, name), np.abs(value), INK, DASHES[0]),
-                (f"{subscripted(letter, name)} along x", value.real, COLOURS[0], DASHES[1]),
-                (f"{subscripted(letter, name)} along y", value.imag, COLOURS[1], DASHES[2]),
+                ChartCurve(sign, np.abs(value), INK),
+                *(
+                    ChartCurve(f"{sign} along *{axis}*", part, hue, hue + 1)
+                    for hue, (axis, part) in enumerate(zip("xy", along, strict=True))
+                ),
             ]
-        panels.append((f"Point {name.replace('@', ' of link ')}", unit, curves))
-    return stacked(found, PLURALS[quantity].capitalize() + more, panels)
+        panels.append(ChartPanel(f"Point {name.replace('@', ' of link ')}", unit, curves))
+    return figure(found, PLURALS[quantity].capitalize() + more, panels)
 
 
-def of_links(found: Sampled, links: Sequence[str]) -> Figure:
+def of_links(found: Sampled, links: Sequence[str]) -> Page:
     """Three panels: angles, angular velocities, angular accelerations of links."""
     panels = []
     links, more = some_of(links, MOST_CURVES, "links")
     angles = [
-        (subscripted("\\theta", name), angle, colour(i), dash(i))
+        ChartCurve(indexed("θ", name), angle, i)
         for i, name in enumerate(links)
         if (angle := angle_of(found, name)) is not None
     ]
     if angles:
         lines = ", ".join(f"{n}: {'-'.join(line_of(found, n))}" for n in links if line_of(found, n))
         which = f" ({lines})" if len(lines) < LINE else ", from its first point to its second"
-        panels.append((f"Angle of the line of each link{which}", "deg", angles))
+        panels.append(ChartPanel(f"Angle of the line of each link{which}", "deg", angles))
     turning = "Angular velocity, counter-clockwise positive", "Angular acceleration"
-    for rate, letter, words in zip(RATES, ("\\omega", "\\varepsilon"), turning, strict=True):
-        curves: list[Curve] = []
+    for rate, letter, words in zip(RATES, "ωε", turning, strict=True):
+        curves: list[ChartCurve] = []
         for i, name in enumerate(links):
             value = motion_value(found.solution.links[name], rate)
             if value is not None:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape)
-                curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
+                curves.append(ChartCurve(indexed(letter, name), whole, i))
         if curves:
-            panels.append((words, rate.unit, curves))
-    return stacked(found, f"Turning of the links{more}", panels)
+            panels.append(ChartPanel(words, rate.unit, curves))
+    return figure(found, f"Turning of the links{more}", panels)
 
 
 def line_of(found: Sampled, link: str) -> tuple[str, ...]:
@@ -285,28 +275,28 @@ def angle_of(found: Sampled, link: str) -> np.ndarray | None:
     return np.asarray(np.degrees(np.concatenate([np.unwrap(part) for part in parts])))
 
 
-def of_slides(found: Sampled, blocks: Sequence[str]) -> Figure:
+def of_slides(found: Sampled, blocks: Sequence[str]) -> Page:
     """Three panels: coordinate, speed, acceleration of every block along its guide."""
     unit = found.length_unit
     panels = []
     blocks, more = some_of(blocks, MOST_CURVES, "blocks")
     for quantity, letter, words, units, factor in (
         ("position", "s", "Coordinate along the guide", unit, found.per_length),
-        ("speed", "\\dot{s}", "Speed along the guide", "m/s", 1.0),
-        ("acceleration", "\\ddot{s}", "Acceleration along the guide", "m/s²", 1.0),
+        ("speed", "v", "Speed along the guide", "m/s", 1.0),
+        ("acceleration", "a", "Acceleration along the guide", "m/s²", 1.0),
     ):
-        curves: list[Curve] = []
+        curves: list[ChartCurve] = []
         for i, name in enumerate(blocks):
             value = getattr(found.solution.slides[name], quantity)
             if value is not None:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape) * factor
-                curves.append((subscripted(letter, name), whole, colour(i), dash(i)))
+                curves.append(ChartCurve(indexed(letter, name), whole, i))
         if curves:
-            panels.append((words, units, curves))
-    return stacked(found, f"Blocks on their guides{more}", panels)
+            panels.append(ChartPanel(words, units, curves))
+    return figure(found, f"Blocks on their guides{more}", panels)
 
 
-def of_cams(found: Sampled) -> Figure:
+def of_cams(found: Sampled) -> Page:
     """Two panels for each cam that the driver turns: displacement and pressure angle."""
     panels = []
     profiles, more = some_of(list(found.cycle.profiles), MOST_PANELS // 2, "cams")
@@ -314,66 +304,51 @@ def of_cams(found: Sampled) -> Figure:
         profile = found.cycle.profiles[name]
         swings = profile.cam.lever is not None
         lift = np.degrees(profile.rise.at) if swings else profile.rise.at * found.per_length
-        letter, unit = ("\\psi", "deg") if swings else ("s", found.length_unit)
-        curve = subscripted(letter, name), lift, COLOURS[0], DASHES[0]
-        panels.append((f"Displacement of link {name} by cam {profile.cam.on}", unit, [curve]))
-        angle = subscripted("\\alpha", name), profile.pressure, COLOURS[1], DASHES[0]
-        panels.append((f"Pressure angle of link {name}", "deg", [angle]))
-    return stacked(found, f"Cams{more}", panels)
+        letter, unit = ("ψ", "deg") if swings else ("s", found.length_unit)
+        words = f"Displacement of link {name} by cam {profile.cam.on}"
+        panels.append(ChartPanel(words, unit, [ChartCurve(indexed(letter, name), lift)]))
+        angle = ChartCurve(indexed("α", name), profile.pressure, 1)
+        panels.append(ChartPanel(f"Pressure angle of link {name}", "deg", [angle]))
+    return figure(found, f"Cams{more}", panels)
 
 
-def of_forces(found: Sampled, forces: ForcesAlong) -> Figure:
+def of_forces(found: Sampled, forces: ForcesAlong) -> Page:
     """The magnitudes of reactions, and a panel for each driver's moment or force."""
     every = forces.values.items()
     reactions = {name: value for (what, name), value in every if what == PAIR_REACTION.target}
     shown, more = some_of(list(reactions), MOST_CURVES, "reactions")
     curves = [
-        (subscripted(*name.split("_", 1)), np.abs(reactions[name]), colour(i), dash(i))
+        ChartCurve(indexed(*name.split("_", 1)), np.abs(reactions[name]), i)
         for i, name in enumerate(shown)
     ]
-    panels = [("Reactions, their magnitudes", PAIR_REACTION.unit, curves)] if curves else []
+    words = "Reactions, their magnitudes"
+    panels = [ChartPanel(words, PAIR_REACTION.unit, curves)] if curves else []
     for (what, name), value in every:
-        quantity, letters = BY_TARGET[what], name.split("_", 1)
+        quantity, sign = BY_TARGET[what], indexed(*name.split("_", 1))
         if quantity is BALANCING_MOMENT:
-            curve = (subscripted(*letters), value, INK, DASHES[0])
             words = "Balancing moment, counter-clockwise positive"
-            panels.append((words, quantity.unit, [curve]))
+            panels.append(ChartPanel(words, quantity.unit, [ChartCurve(sign, value, INK)]))
         elif quantity is BALANCING_FORCE:
             along = [
-                (subscripted(*letters), np.abs(value), INK, DASHES[0]),
-                (f"{subscripted(*letters)} along x", value.real, COLOURS[0], DASHES[1]),
-                (f"{subscripted(*letters)} along y", value.imag, COLOURS[1], DASHES[2]),
+                ChartCurve(sign, np.abs(value), INK),
+                ChartCurve(f"{sign} along *x*", value.real, 0, 1),
+                ChartCurve(f"{sign} along *y*", value.imag, 1, 2),
             ]
-            panels.append(("Balancing force", quantity.unit, along))
-    return stacked(found, f"Forces{more}", panels)
+            panels.append(ChartPanel("Balancing force", quantity.unit, along))
+    return figure(found, f"Forces{more}", panels)
 
 
-def stacked(
-    found: Sampled, title: str, panels: Sequence[tuple[str, str, Sequence[Curve]]]
-) -> Figure:
-    """Panels one below another over one axis of the driver."""
-    figure = new_figure(WIDTH, PANEL * len(panels) + 0.9)
-    figure_title(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
-    axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-    at = found.broken(found.at * axis_factor(found))
-    for ax, (words, unit, curves) in zip(axes, panels, strict=True):
-        for label, values, ink, stroke in curves:
-            ax.plot(at, found.broken(values), color=ink, linestyle=stroke, label=label)
-        bounds = span_of(found.at, [values for _, values, _, _ in curves])
-        if bounds is not None:
-            ax.set_ylim(*bounds)
-        known = [sure for _, values, _, _ in curves if (sure := values[np.isfinite(values)]).size]
-        if known and max(map(np.ptp, known)) < 1e-9 * max(abs(sure).max() for sure in known):
-            ax.margins(y=0.5)
-        ax.axhline(0, color=FAINT, linewidth=0.6, zorder=1)
-        ax.set_ylabel(unit)
-        panel_heading(ax, words, raised=len(words) + NAMED * len(curves) > LINE)
-        legend(ax)
-        singular_lines(found, ax)
-    figure.align_ylabels(axes)
-    tell_lines(found, axes[0], [values for _, values, _, _ in panels[0][2]])
-    driver_axis(found, axes[-1])
-    return figure
+def figure(found: Sampled, title: str, panels: Sequence[ChartPanel]) -> Page:
+    """Panels one below another over one axis of the driver, interrupted between ranges."""
+    whole = [
+        replace(
+            panel,
+            curves=[replace(each, values=found.broken(each.values)) for each in panel.curves],
+            bounds=span_of(found.at, [each.values for each in panel.curves]),
+        )
+        for panel in panels
+    ]
+    return stacked(f"{title}: {found.title}", whole, driver_axis(found))
 
 
 def axis_factor(found: Sampled) -> float:
@@ -381,72 +356,78 @@ def axis_factor(found: Sampled) -> float:
     return found.per_length if found.cycle.sweep.is_length else 1.0
 
 
-def driver_axis(found: Sampled, ax: Axes) -> None:
-    """Draw the axis of the driver, in whole parts of a turn where it turns."""
+def driver_axis(found: Sampled) -> AcrossAxis:
+    """The axis of the driver, with numbers at whole parts of a turn where it turns."""
     sweep = found.cycle.sweep
     low, high = float(found.at.min()), float(found.at.max())
+    ticks: list[float] = []
     if sweep.what == "turn":
         if sweep.whole and high - low > 0.9 * TURN:
             low, high = min(low, 0.0), max(high, low + TURN)
         step = next((s for s in TURNS if (high - low) / s < TICKS), None)
         if step is not None and high - low > LEAST_TICKS * step:
-            ticks = np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
-            ax.set_xticks(ticks * step)
+            first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
+            ticks = (np.arange(first, last + 1) * step).tolist()
         name = found.scene.drivers[(sweep.number or 1) - 1].link
         words = f"driver's angle φ of link {name}, deg"
     elif sweep.what == "time":
         words = "time t, s"
     else:
         words = f"driver's coordinate s, {found.length_unit}"
-    ax.set_xlabel(words + (": time runs from right to left" if sweep.runs_backwards else ""))
+    words += ": time runs from right to left" if sweep.runs_backwards else ""
     factor = axis_factor(found)
     room = 0.0 if found.cycle.path.whole else 0.02 * (high - low)
-    ax.set_xlim((low - room) * factor, (high + room) * factor)
+    low, high = (low - room) * factor, (high + room) * factor
+    at = found.broken(found.at * factor)
+    return AcrossAxis(at, low, high, words, ticks, uprights(found))
 
 
-def marked(found: Sampled) -> list[tuple[float, str, str]]:
-    """Positions to mark with their colour: dead points, change points and the scene's position."""
+def uprights(found: Sampled) -> list[Upright]:
+    """The lines at dead points, change points and the scene's position, with their words."""
+    factor = axis_factor(found)
     lines = [
-        (each.at, "dead point" if each.kind == "dead" else "change point", WARNING)
+        Upright(each.at * factor, "limit", "dead point" if each.kind == "dead" else "change point")
         for each in found.cycle.singulars
     ]
     sweep = found.cycle.sweep
     if sweep.what != "time":
         low, high = found.at.min(), found.at.max()
         at = found.cycle.path.found_at(sweep.start, low, high)
-        lines += [(at, "scene's position", FAINT)] if low <= at <= high else []
+        if low <= at <= high:
+            lines.append(Upright(at * factor, "here", "scene's position"))
     return lines
 
 
-def singular_lines(found: Sampled, ax: Axes) -> None:
-    """Draw thin lines at dead and change points, and at the scene's position."""
-    for at, _, ink in marked(found):
-        stroke = (0, (4, 3)) if ink == WARNING else ":"
-        ax.axvline(at * axis_factor(found), color=ink, linewidth=0.8, linestyle=stroke, zorder=1)
+# --- limits of curves that run to infinity --------------------------------------------------------
 
 
-def tell_lines(found: Sampled, ax: Axes, curves: Sequence[np.ndarray]) -> None:
-    """Label these lines in small letters along them in the first panel, away from its curves."""
-    low, high = found.at.min(), found.at.max()
-    bottom, top = ax.get_ylim()
-    for at, words, ink in marked(found):
-        late = at > low + 0.97 * (high - low)
-        beside = (at - found.at if late else found.at - at) / (high - low)
-        near = (beside > -NARROW) & (beside < WORDS_WIDE)
-        heights = np.concatenate([(curve[near] - bottom) / (top - bottom) for curve in curves])
-        tall = LETTER_TALL * len(words)
-        starts = sorted(np.arange(0.02, 1 - tall, 0.04), key=lambda y: abs(y + tall / 2 - 0.5))
-        clear = {y: np.abs(heights - y - tall / 2).min(initial=1) - tall / 2 for y in starts}
-        free = [y for y in starts if clear[y] > NARROW]
-        ax.annotate(
-            words,
-            (at * axis_factor(found), free[-1] if free else max(starts, key=clear.__getitem__)),
-            xycoords=("data", "axes fraction"),
-            xytext=(-2 if late else 2, 0),
-            textcoords="offset points",
-            rotation=90,
-            ha="right" if late else "left",
-            va="bottom",
-            fontsize=6.5,
-            color=ink,
-        )
+def span_of(at: Reals, values: Sequence[np.ndarray]) -> tuple[float, float] | None:
+    """Axis limits that cut off curves running to infinity, wide enough for the rest.
+
+    None where no curve runs to infinity, so that everything may be shown.
+    """
+    even = np.linspace(at.min(), at.max(), 1001)
+    order = np.argsort(at)
+    after = np.clip(np.searchsorted(at[order], even), 1, len(at) - 1)
+    gap = at[order][after] - at[order][after - 1]
+    even = even[gap < GAP * np.ptp(at)]  # not between two ranges
+    known = np.concatenate([np.interp(even, at[order], v[order]) for v in values])
+    known = known[np.isfinite(known)]
+    if not known.size:
+        return None
+    most = max(float(np.nanmax(np.abs(v[np.isfinite(v)]), initial=0.0)) for v in values)
+    usual = float(np.quantile(np.abs(known), 0.85))
+    if most <= RUNS_AWAY * usual or usual == 0:
+        return None
+    inside = known[np.abs(known) <= KEPT * usual]
+    low, high = min(float(inside.min()), 0.0), max(float(inside.max()), 0.0)
+    room = 0.08 * (high - low)
+    return low - room, high + room
+
+
+GAP = 0.02
+"""Distance of two places, as a share of the whole, across which nothing is drawn."""
+RUNS_AWAY = 5.0
+"""Ratio of the largest to the usual value beyond which a curve runs to infinity."""
+KEPT = 2.0
+"""Multiple of the usual value up to which values stay visible."""

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from msgspec import Struct
@@ -15,35 +14,28 @@ from graphkin.construction.core.solution import UNPROVED
 from graphkin.construction.links.mechanism_symbols import draw_ground, draw_links
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent, free_ones
+from graphkin.drawing.marks import CircleMark, Mark, Page, Text, moved
 from graphkin.drawing.scale import Scales
+from graphkin.drawing.style import HUES
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.motion.centrodes import centrodes, links_with_centrodes
-from graphkin.motion.curves.over_driver import Sampled, moving_points
+from graphkin.motion.curves.charts import (
+    INK,
+    Box,
+    ChartCurve,
+    PlaneChart,
+    area_in,
+    noted,
+    plane_page,
+)
+from graphkin.motion.curves.over_driver import Sampled, indexed, moving_points, some_of
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.single_loop import Band, Loop, Ring, class_of
 from graphkin.scene.link_points import is_under
 from graphkin.text import words
 from graphkin.text.errors import ClosureError
-from graphkin.writers.plot_style import (
-    COLOURS,
-    FAINT,
-    INK,
-    WARNING,
-    colour,
-    figure_title,
-    new_figure,
-    some_of,
-)
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-Box = tuple[float, float, float, float]
-MILLIMETRES = 180.0
-"""Longer side of a figure in mm."""
-OUTLINE_FAINT = 0.6
-"""Opacity of the mechanism's lines among the curves."""
 MOST_POINTS = 60
 """Points of a mechanism above which a figure shows only the links that it concerns."""
 
@@ -101,21 +93,19 @@ def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline
     )
 
 
-def draw(ax: Axes, stand: Outline, box: Box) -> None:
-    """Draw the mechanism in axes over a ``box``, with the letters that fit."""
-    from graphkin.writers.axes import put_to_scale
-
-    (x0, x1, y0, y1), per_metre = box, stand.factor
-    times = MILLIMETRES / max(x1 - x0, y1 - y0)
+def outline(stand: Outline, plane: PlaneChart) -> list[Mark]:
+    """The mechanism in a figure, with the letters that fit."""
+    (x0, x1, y0, y1), per_metre = plane.shown, stand.factor
     middle = complex(x0 + x1, y0 + y1) / (2 * per_metre)
-    wide, high = (x1 - x0) * times, (y1 - y0) * times
+    wide, high = (x1 - x0) * plane.mm, (y1 - y0) * plane.mm
     rect = (0.0, 0.0, wide, high)
-    field = Field(rect, per_metre * times, middle, (wide / 2, high / 2))
+    field = Field(rect, per_metre * plane.mm, middle, (wide / 2, high / 2))
     board = FieldContent(rect)
     draw_ground(board, stand.drawing, field)
     draw_links(board, stand.drawing, field)
+    left, top, _, _ = plane.rect
     marks = [*board.marks, *free_ones(board, board.spots([]))]
-    put_to_scale(ax, marks, field(0j), times, strength=OUTLINE_FAINT)
+    return [moved(mark, left, top) for mark in marks]
 
 
 # --- paths of points, and centrodes that roll on one another --------------------------------------
@@ -127,8 +117,8 @@ MOST_PATHS = 16
 """Most paths in one figure: each colour twice."""
 FAR = 1.6
 """Distance from the mechanism's box, in its breadths, at which centrodes are cut off."""
-LETTERS = 11.5
-"""Letters of a legend per inch."""
+DOT = 0.55
+"""Radius of a dot on a path, in mm."""
 
 
 def path_points(found: Sampled) -> list[str]:
@@ -147,7 +137,7 @@ def path_points(found: Sampled) -> list[str]:
     return [name for name in own if name in found.solution.points]
 
 
-def paths(found: Sampled) -> Figure:
+def paths(found: Sampled) -> Page:
     """The path of every point of interest, with the mechanism in the scene's position."""
     names, more = some_of(path_points(found), MOST_PATHS, "points")
     stand = stand_about(found.cycle, found.per_length, names)
@@ -155,17 +145,17 @@ def paths(found: Sampled) -> Figure:
         name: np.asarray(found.solution.points[name].position) * found.per_length for name in names
     }
     box = box_of([np.array(list(stand.places.values())), *curves.values()])
-    figure, ax = plane(found, f"Paths of points{more}", box)
-    draw(ax, stand, box)
-    for i, (name, curve) in enumerate(curves.items()):
-        line = found.broken(curve)
-        ax.plot(line.real, line.imag, color=colour(i), label=f"path of {name}", zorder=5)
-        dots = dotted(found, curve)
-        ax.plot(dots.real, dots.imag, "o", ms=2.6, color=colour(i), zorder=5.5)
+    lines = [
+        ChartCurve(f"path of {symbol(name)}", found.broken(curve), i)
+        for i, (name, curve) in enumerate(curves.items())
+    ]
+    dots = [
+        ChartCurve("", dotted(found, curve), i, dot=DOT) for i, curve in enumerate(curves.values())
+    ]
+    plane = plane_of(found, f"Paths of points{more}", box, [*lines, *dots])
     note = ", a dot every 30° of the driver" if found.cycle.sweep.what == "turn" else ""
     note = f"mechanism as the scene has it{note}" if stand.drawn else note.lstrip(", ")
-    below(ax, note, stand)
-    return figure
+    return plane_page(plane, outline(stand, plane), note=noting(note, stand))
 
 
 def dotted(found: Sampled, curve: np.ndarray) -> np.ndarray:
@@ -191,7 +181,7 @@ def centrode_links(found: Sampled) -> list[str]:
     ]
 
 
-def both_centrodes(found: Sampled, link: str) -> Figure:
+def both_centrodes(found: Sampled, link: str) -> Page:
     """The fixed centrode of a link, and the moving one that touches it in the scene's position."""
     stand = stand_about(found.cycle, found.per_length, found.scene.links[link].points)
     both = centrodes(found.cycle, link)
@@ -202,21 +192,21 @@ def both_centrodes(found: Sampled, link: str) -> Figure:
     places = np.array(list(stand.places.values()))
     touch = here[2] * found.per_length
     window = near_box(places, [fixed, moving], stand.breadth(), touch)
-    figure, ax = plane(found, f"Centrodes of link {link}", window)
-    draw(ax, stand, window)
-    for curve, ink, name in (
-        (fixed, COLOURS[0], "fixed centrode"),
-        (moving, COLOURS[1], f"moving centrode, carried by link {link}"),
-    ):
-        line = unbroken(found, curve, window)
-        ax.plot(line.real, line.imag, color=ink, label=name, zorder=5)
+    curves = [
+        ChartCurve("fixed centrode", unbroken(found, fixed, window), 0),
+        ChartCurve(
+            f"moving centrode, carried by link {escape(link)}", unbroken(found, moving, window), 1
+        ),
+    ]
+    plane = plane_of(found, f"Centrodes of link {link}", window, curves)
+    above: list[Mark] = []
     if inside(touch, window):
-        name = f"$I_{{{link}}}$" if link.isalnum() else "I"
-        ax.plot([touch.real], [touch.imag], "o", ms=5, color=INK, zorder=9)
-        ax.annotate(name, (touch.real, touch.imag), xytext=(7, 6), textcoords="offset points")
+        x, y = plane(touch)
+        above.append(CircleMark(x, y, 2 * DOT, f"dot {HUES[INK]}", "centre"))
+        name = indexed("I", link) if link.isalnum() else "*I*"
+        above.append(Text(x + 2, y - 2, name, "caption", 2.5, name="centre"))
     note = "the moving centrode rolls on the fixed one; they touch in the instantaneous centre"
-    below(ax, note, stand)
-    return figure
+    return plane_page(plane, outline(stand, plane), above, noting(note, stand))
 
 
 def at_scene(found: Sampled, link: str) -> tuple[complex, complex, complex]:
@@ -238,40 +228,14 @@ def unbroken(found: Sampled, curve: np.ndarray, window: Box) -> np.ndarray:
     return np.where(out, complex(np.nan, np.nan), line)
 
 
-def plane(found: Sampled, title: str, box: Box) -> tuple[Figure, Axes]:
-    """A figure with equal axes over a box."""
-    wide, high = box[1] - box[0], box[3] - box[2]
-    scale = MILLIMETRES / 25.4 / max(wide, high)
-    figure = new_figure(max(wide * scale, 5.2) + 0.7, max(high * scale, 2.6) + 1.5)
-    figure_title(figure, f"{title}: {found.title}", x=0.01, ha="left", fontsize=11)
-    ax = figure.subplots()
-    ax.set_xlim(box[0], box[1])
-    ax.set_ylim(box[2], box[3])
-    ax.set_aspect("equal", adjustable="box")
-    ax.set_xlabel(f"x, {found.length_unit}")
-    ax.set_ylabel(f"y, {found.length_unit}")
-    return figure, ax
+def plane_of(found: Sampled, title: str, box: Box, curves: Sequence[ChartCurve]) -> PlaneChart:
+    """A figure with equal scales over a box."""
+    return PlaneChart(f"{title}: {found.title}", found.length_unit, box, curves)
 
 
-def below(ax: Axes, note: str, stand: Outline) -> None:
-    """Add the legend above the figure, and below it a note and what is left out."""
-    note = "; ".join(filter(None, (note, stand.left_out)))
-    handles, labels = ax.get_legend_handles_labels()
-    figure = ax.get_figure(root=True)
-    assert figure is not None
-    if handles:
-        longest = max(map(len, labels)) + 7
-        ax.legend(
-            handles=handles,
-            labels=[str(label) for label in labels],
-            loc="lower left",
-            bbox_to_anchor=(0.0, 1.0),
-            ncols=max(1, int(LETTERS * figure.get_size_inches()[0] / longest)),
-            borderaxespad=0.3,
-            handlelength=2.0,
-        )
-    if note:
-        figure.supxlabel(note, x=0.01, ha="left", fontsize=8, color=FAINT)
+def noting(note: str, stand: Outline) -> str:
+    """The note below a figure, with what is left out."""
+    return "; ".join(filter(None, (note, stand.left_out)))
 
 
 def box_of(parts: list[np.ndarray]) -> Box:
@@ -301,13 +265,13 @@ def inside(z: complex, box: Box) -> bool:
 # --- the ring of a single loop: the path of its driven pin, and the reach of the rest -------------
 
 
+BLUE, RED, GREEN, GREY = 0, 1, 2, 6
+"""The hues of what is within reach, of what is not, of limits, and of middle lines."""
 TURNED = np.exp(1j * np.linspace(0, 2 * np.pi, 1441))
 """Unit vectors in all directions."""
-GREEN = "#2b8a5b"
-AREA = "#e3efe6"
 
 
-def reach(found: Sampled, loop: Loop) -> Figure:
+def reach(found: Sampled, loop: Loop) -> Page:
     """The path of the driven pin against the ring or band that the rest of the loop can reach."""
     stand = stand_about(found.cycle, found.per_length, loop.pins)
     factor = found.per_length
@@ -320,13 +284,11 @@ def reach(found: Sampled, loop: Loop) -> Figure:
         foot = foot_of(loop.reach, loop) if isinstance(loop.path, Ring) else loop.reach.line.point
         parts.append(np.array([foot + half, foot - half]) * factor)
     box = box_of([np.array(list(stand.places.values())), *parts])
-    figure, ax = plane(found, "What the driven pin passes, and what the rest can reach", box)
-    area(ax, loop, factor, box)
-    draw(ax, stand, box)
-    pin_path(ax, loop, factor)
-    dead_marks(ax, found, loop)
-    below(ax, reach_note(loop), stand)
-    return figure
+    what = "What the driven pin passes, and what the rest can reach"
+    plane = plane_of(found, what, box, [*limits(loop, factor, box), *pin_path(loop, factor)])
+    below = [*area_in(plane, rim_of(loop, factor, box), "shade"), *outline(stand, plane)]
+    above = dead_marks(plane, found, loop)
+    return plane_page(plane, below, [*above], noting(reach_note(loop), stand))
 
 
 def foot_of(band: Band, loop: Loop) -> complex:
@@ -359,64 +321,61 @@ def reached(loop: Loop, places: np.ndarray) -> np.ndarray:
     return np.asarray(aside <= loop.reach.half * (1 + 1e-9))
 
 
-def area(ax: Axes, loop: Loop, factor: float, box: Box) -> None:
-    """Draw the ring or band, lightly filled."""
+def rims(loop: Loop, factor: float, box: Box) -> tuple[np.ndarray, np.ndarray]:
+    """The two edges of the ring or band, which run against one another."""
     if isinstance(loop.reach, Ring):
-        outer, inner = (
-            (loop.reach.centre + loop.reach.outer * TURNED) * factor,
-            (loop.reach.centre + loop.reach.inner * TURNED[::-1]) * factor,
-        )
-        filled(ax, np.concatenate([outer, inner]), within(loop))
-        for rim in (outer, inner):
-            ax.plot(rim.real, rim.imag, color=GREEN, linewidth=0.9)
-        return
+        outer = (loop.reach.centre + loop.reach.outer * TURNED) * factor
+        return outer, (loop.reach.centre + loop.reach.inner * TURNED[::-1]) * factor
     line, half = loop.reach.line, loop.reach.half
     long = 2 * max(abs(bound) for bound in box) + abs(line.point) * factor
     ends = np.array([-1, 1]) * line.along * long
-    edges = [(line.point + side * 1j * line.along * half) * factor + ends for side in (1, -1)]
-    rim = np.concatenate([edges[0], edges[1][::-1]])
-    filled(ax, rim, within(loop))
-    for edge in edges:
-        ax.plot(edge.real, edge.imag, color=GREEN, linewidth=0.9, zorder=1)
-    middle = line.point * factor + ends
-    ax.plot(middle.real, middle.imag, color=FAINT, linewidth=0.8, linestyle=(0, (8, 2, 1.5, 2)))
+    one, other = ((line.point + side * 1j * line.along * half) * factor + ends for side in (1, -1))
+    return one, other[::-1]
 
 
-def filled(ax: Axes, rim: np.ndarray, words: str) -> None:
-    """Draw a lightly filled area."""
-    ax.fill(rim.real, rim.imag, facecolor=AREA, edgecolor="none", zorder=0.5, label=words)
+def rim_of(loop: Loop, factor: float, box: Box) -> np.ndarray:
+    """The corners of the ring or band."""
+    return np.concatenate(rims(loop, factor, box))
+
+
+def limits(loop: Loop, factor: float, box: Box) -> list[ChartCurve]:
+    """The edges of the ring or band, and the middle line of a band."""
+    found = [
+        ChartCurve(words, edge, GREEN)
+        for words, edge in zip((within(loop), ""), rims(loop, factor, box), strict=True)
+    ]
+    if isinstance(loop.reach, Ring):
+        return found
+    line = loop.reach.line
+    long = 2 * max(abs(bound) for bound in box) + abs(line.point) * factor
+    middle = line.point * factor + np.array([-1, 1]) * line.along * long
+    return [*found, ChartCurve("", middle, GREY, 3)]
 
 
 def within(loop: Loop) -> str:
-    """The legend of the filled area."""
+    """The legend of the filled area, as markup."""
     if isinstance(loop.reach, Ring):
-        return f"ring that {loop.pins[2]}'s two links reach about {loop.pins[3]}"
-    return f"band that the rod reaches on either side of the path of {loop.pins[2]}"
+        return (
+            f"ring that the two links of {symbol(loop.pins[2])} reach about {symbol(loop.pins[3])}"
+        )
+    return f"band that the rod reaches on either side of the path of {symbol(loop.pins[2])}"
 
 
-def pin_path(ax: Axes, loop: Loop, factor: float) -> None:
-    """Draw the driven pin's path, solid where it is within reach, dashed and red elsewhere."""
+def pin_path(loop: Loop, factor: float) -> Iterator[ChartCurve]:
+    """The driven pin's path, solid where it is within reach, dashed and red elsewhere."""
     places = path_places(loop)
     good = reached(loop, places)
-    what = "circle" if isinstance(loop.path, Ring) else "line"
-    for flags, ink, stroke, name in (
-        (good, COLOURS[0], "-", f"{what} of {loop.pins[1]}, within reach"),
-        (~good, WARNING, (0, (4, 2)), f"{what} of {loop.pins[1]}, out of reach"),
+    what = f"{'circle' if isinstance(loop.path, Ring) else 'line'} of {symbol(loop.pins[1])}"
+    for flags, hue, stroke, name in (
+        (good, BLUE, 0, f"{what}, within reach"),
+        (~good, RED, 1, f"{what}, out of reach"),
     ):
         if flags.any():
             line = np.where(flags, places, complex(np.nan, np.nan)) * factor
-            ax.plot(
-                line.real,
-                line.imag,
-                color=ink,
-                linestyle=stroke,
-                linewidth=2,
-                label=name,
-                zorder=5,
-            )
+            yield ChartCurve(name, line, hue, stroke)
 
 
-def dead_marks(ax: Axes, found: Sampled, loop: Loop) -> None:
+def dead_marks(plane: PlaneChart, found: Sampled, loop: Loop) -> Iterator[Mark]:
     """Mark the pin's positions at the dead points, beyond which the driver cannot go."""
     cycle = found.cycle
     way = 1e-6 * (found.at.max() - found.at.min())
@@ -429,21 +388,11 @@ def dead_marks(ax: Axes, found: Sampled, loop: Loop) -> None:
             if end.kind != "dead" or not len(row.at):
                 continue
             place = complex(np.ravel(np.asarray(row.solution.points[loop.pins[1]].position))[0])
-            place *= found.per_length
-            ax.plot([place.real], [place.imag], "D", ms=5, color=WARNING, zorder=9)
             sign = "φ" if cycle.sweep.what == "turn" else "s"
             value = end.at if cycle.sweep.what == "turn" else end.at * found.per_length
             unit = "°" if cycle.sweep.what == "turn" else f" {found.length_unit}"
-            ax.annotate(
-                f"{sign} = {value:.2f}{unit}",
-                (place.real, place.imag),
-                xytext=(8, 8 if place.imag >= 0 else -12),
-                textcoords="offset points",
-                color=WARNING,
-                fontsize=8,
-                zorder=9,
-                bbox={"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.8},
-            )
+            words = f"*{sign}* = {value:.2f}{unit}".replace("-", "−")
+            yield from noted(plane, place * found.per_length, words, RED)
 
 
 def reach_note(loop: Loop) -> str:

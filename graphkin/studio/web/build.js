@@ -18,7 +18,7 @@ const PIN = 6; // px
 const BAR = 120; // px of the scale bar, at most
 const LETTER = 15; // px
 const BESIDE = 17; // px from a pin to the middle of its letter
-const SIDES = [1, 3, 7, 5, 0, 2, 6, 4].map((part) => (part * Math.PI) / 4); // directions for letters, best ones first
+const SIDES = [1, 3, 7, 5, 0, 2, 6, 4].map(part => (part * Math.PI) / 4); // directions for letters, best ones first
 const SMALL = [180, 110]; // px of a small picture
 const stood = new Map(); // places of points, by the text
 let sketch = null;
@@ -66,7 +66,7 @@ const pixel = () => view.width / svg.clientWidth;
 
 /** Bring all points into view; a view that holds them stays, unless `anew` is set. */
 function fit(anew = false) {
-  const ghosts = sketch.ghosts.map((ghost) => ghost.at);
+  const ghosts = sketch.ghosts.map(ghost => ghost.at);
   const at = [...Object.values(sketch.points), ...ghosts, ...corners()];
   const [width, height] = [svg.clientWidth || 1, svg.clientHeight || 1];
   const steep = height / width;
@@ -78,10 +78,15 @@ function fit(anew = false) {
     x > view.x + edge && x < right - edge && -y > view.y + edge && -y < lower - edge;
   const seen = byHand ? at.some(inside) : at.every(inside); // a view chosen by hand may cut something off
   if (!at.length || (!anew && seen)) return;
-  const [xs, ys] = [at.map((p) => p[0]), at.map((p) => -p[1])];
-  const middle = (all) => (Math.min(...all) + Math.max(...all)) / 2;
-  const size = (all) => (Math.max(...all) - Math.min(...all)) * (1 + 2 * ROOM);
-  const across = Math.max(size(xs), size(ys) / steep, (WIDE * sketch.grid) / 4, anew ? 0 : view.width);
+  const [xs, ys] = [at.map(p => p[0]), at.map(p => -p[1])];
+  const middle = all => (Math.min(...all) + Math.max(...all)) / 2;
+  const size = all => (Math.max(...all) - Math.min(...all)) * (1 + 2 * ROOM);
+  const across = Math.max(
+    size(xs),
+    size(ys) / steep,
+    (WIDE * sketch.grid) / 4,
+    anew ? 0 : view.width,
+  );
   view = { x: middle(xs) - across / 2, y: middle(ys) - (across * steep) / 2, width: across };
 }
 
@@ -164,14 +169,18 @@ function onGuide(sketch, { point, along: [u, v], fixed }, [x, y]) {
 
 /** The direction, of eight, farthest from the bars and guides that meet at a point. */
 function freeSide(sketch, points, name) {
-  const bars = Object.values(sketch.links).filter((held) => held.includes(name));
-  const others = bars.flat().filter((point) => point !== name && points[point]);
-  const ways = others.map((point) => points[point].map((part, k) => part - points[name][k]));
+  const bars = Object.values(sketch.links).filter(held => held.includes(name));
+  const others = bars.flat().filter(point => point !== name && points[point]);
+  const ways = others.map(point => points[point].map((part, k) => part - points[name][k]));
   for (const { point, along } of sketch.blocks) {
-    if (point === name) ways.push(along, along.map((part) => -part));
+    if (point === name)
+      ways.push(
+        along,
+        along.map(part => -part),
+      );
   }
   const turns = ways.map(([x, y]) => Math.atan2(y, x));
-  const clear = (side) => Math.min(...turns.map((turn) => Math.acos(Math.cos(turn - side))));
+  const clear = side => Math.min(...turns.map(turn => Math.acos(Math.cos(turn - side))));
   return SIDES.reduce((best, side) => (clear(side) > clear(best) + 1e-6 ? side : best));
 }
 
@@ -181,7 +190,7 @@ function marksOf(sketch, points, one, named = true) {
   const marks = [];
   for (const block of sketch.blocks) {
     const [x, y] = onGuide(sketch, block, points[block.point]);
-    const [dx, dy] = block.along.map((part) => part / (Math.hypot(...block.along) || 1));
+    const [dx, dy] = block.along.map(part => part / (Math.hypot(...block.along) || 1));
     const turn = `rotate(${(-Math.atan2(dy, dx) * 180) / Math.PI} ${x} ${-y})`;
     const reach = 60 * one;
     marks.push(line("guide", [x - dx * reach, y - dy * reach], [x + dx * reach, y + dy * reach]));
@@ -195,7 +204,7 @@ function marksOf(sketch, points, one, named = true) {
     marks.push(element("circle", look, { cx: x, cy: -y, r: radius, "data-wheel": link }));
   }
   for (const [name, held] of Object.entries(sketch.links)) {
-    const at = held.filter((point) => points[point]).map((point) => points[point]);
+    const at = held.filter(point => points[point]).map(point => points[point]);
     const look = `bar${sketch.driven.includes(name) ? " driven" : ""}`;
     const list = at.map(([x, y]) => `${x},${-y}`).join(" ");
     if (at.length > 1) marks.push(element("polygon", look, { points: list, "data-link": name }));
@@ -205,7 +214,14 @@ function marksOf(sketch, points, one, named = true) {
       const list = bar.map(([x, y]) => `${x},${-y}`).join(" ");
       marks.push(element(bar.length > 2 ? "polygon" : "polyline", "ghost", { points: list }));
     }
-    marks.push(element("circle", "ghost", { cx: ghost.at[0], cy: -ghost.at[1], r: PIN * one, "data-ghost": ghost.point }));
+    marks.push(
+      element("circle", "ghost", {
+        cx: ghost.at[0],
+        cy: -ghost.at[1],
+        r: PIN * one,
+        "data-ghost": ghost.point,
+      }),
+    );
   }
   for (const [name, [x, y]] of Object.entries(points)) {
     const look = `pin${sketch.fixed.includes(name) ? " fixed" : ""}`;
@@ -225,10 +241,13 @@ export function picture(sketch) {
   if (!at.length) return small;
   const rims = sketch.wheels.flatMap(({ centre, radius }) => {
     const [x, y] = sketch.points[centre];
-    return [[x - radius, y - radius], [x + radius, y + radius]];
+    return [
+      [x - radius, y - radius],
+      [x + radius, y + radius],
+    ];
   });
   const seen = [...at, ...rims];
-  const [xs, ys] = [seen.map((p) => p[0]), seen.map((p) => -p[1])];
+  const [xs, ys] = [seen.map(p => p[0]), seen.map(p => -p[1])];
   const [left, upper] = [Math.min(...xs), Math.min(...ys)];
   const [width, height] = [Math.max(...xs) - left, Math.max(...ys) - upper];
   const one = Math.max(width / SMALL[0], height / SMALL[1]) || 1;
@@ -242,11 +261,13 @@ export function picture(sketch) {
 /** A scale bar of a round length at the foot of the field. */
 function measure(one) {
   const power = 10 ** Math.floor(Math.log10(BAR * one));
-  const length = [5, 2, 1].map((m) => m * power).find((each) => each <= BAR * one);
+  const length = [5, 2, 1].map(m => m * power).find(each => each <= BAR * one);
   const [x, y] = [view.x + 12 * one, view.y + (svg.clientHeight - 12) * one];
   const letter = { x: x + length + 6 * one, y: y + 4 * one, "font-size": 0.8 * LETTER * one };
   return [
-    element("path", "scale", { d: `M${x} ${y - 4 * one}v${8 * one}m0 ${-4 * one}h${length}m0 ${-4 * one}v${8 * one}` }),
+    element("path", "scale", {
+      d: `M${x} ${y - 4 * one}v${8 * one}m0 ${-4 * one}h${length}m0 ${-4 * one}v${8 * one}`,
+    }),
     element("text", "scale", letter, `${+length.toPrecision(3)} ${sketch.unit}`),
   ];
 }
@@ -263,7 +284,8 @@ function origin(one) {
 }
 
 /** Coordinates on the grid, as they are written. */
-const coordinates = (at) => at.map((part) => +(Math.round(part / sketch.grid) * sketch.grid).toFixed(6));
+const coordinates = at =>
+  at.map(part => +(Math.round(part / sketch.grid) * sketch.grid).toFixed(6));
 
 /** Show the pointer's coordinates at the edge of the field, or nothing. */
 function tellPlace(at) {
@@ -301,33 +323,33 @@ function beside(at, from, to) {
 /** The nearest of some `things` within reach, by their distance. */
 function nearest(things, distance) {
   const near = NEAR * pixel();
-  const all = things.map((thing) => [distance(thing), thing]).filter(([far]) => far <= near);
+  const all = things.map(thing => [distance(thing), thing]).filter(([far]) => far <= near);
   return all.sort(([one], [other]) => one - other)[0]?.[1];
 }
 
 /** The pin at a place, except one. */
 const pointAt = (at, but = "") => {
-  const others = Object.keys(sketch.points).filter((name) => name !== but);
-  return nearest(others, (name) => away(at, sketch.points[name]));
+  const others = Object.keys(sketch.points).filter(name => name !== but);
+  return nearest(others, name => away(at, sketch.points[name]));
 };
-const ghostAt = (at) => nearest(sketch.ghosts, (ghost) => away(at, ghost.at));
+const ghostAt = at => nearest(sketch.ghosts, ghost => away(at, ghost.at));
 
 const fromRim = (at, { centre, radius }) => Math.abs(away(at, sketch.points[centre]) - radius);
 
 /** The wheel whose rim is at a place, except wheels around a given point. */
 const rimAt = (at, but) =>
   nearest(
-    sketch.wheels.filter((wheel) => wheel.centre !== but),
-    (wheel) => fromRim(at, wheel),
+    sketch.wheels.filter(wheel => wheel.centre !== but),
+    wheel => fromRim(at, wheel),
   );
 
 /** The bar or wheel at a place, except those of a given point. */
 function linkAt(at, but = "") {
-  const free = Object.keys(sketch.links).filter((name) => !sketch.links[name].includes(but));
-  return nearest(free, (name) => {
-    const rims = sketch.wheels.filter((wheel) => wheel.link === name);
-    const rim = Math.min(Infinity, ...rims.map((wheel) => fromRim(at, wheel)));
-    const held = sketch.links[name].map((point) => sketch.points[point]).filter(Boolean);
+  const free = Object.keys(sketch.links).filter(name => !sketch.links[name].includes(but));
+  return nearest(free, name => {
+    const rims = sketch.wheels.filter(wheel => wheel.link === name);
+    const rim = Math.min(Infinity, ...rims.map(wheel => fromRim(at, wheel)));
+    const held = sketch.links[name].map(point => sketch.points[point]).filter(Boolean);
     const sides = held.map((point, i) => beside(at, held[i - 1] ?? held.at(-1), point));
     return held.length > 1 ? Math.min(rim, ...sides) : rim;
   });
@@ -340,14 +362,14 @@ const lengthTold = (far, grid = sketch.grid) =>
 /** The distances of a new point of the pressed link from its first two points; on their line,
  * from one. */
 function spokes(at) {
-  const held = (sketch.links[press.link] ?? []).filter((name) => sketch.points[name]).slice(0, 2);
+  const held = (sketch.links[press.link] ?? []).filter(name => sketch.points[name]).slice(0, 2);
   const [[x, y], [u, v]] = [sketch.points[held[0]] ?? at, sketch.points[held[1]] ?? at];
   const [long, aside] = [Math.hypot(u - x, v - y), (u - x) * (at[1] - y) - (v - y) * (at[0] - x)];
   if (held.length > 1 && Math.abs(aside) < sketch.grid * long) {
     const along = ((u - x) * (at[0] - x) + (v - y) * (at[1] - y)) / long;
     return `${held[0]}: ${lengthTold(Math.abs(along))}`;
   }
-  return held.map((name) => `${name}: ${lengthTold(away(at, sketch.points[name]))}`).join(", ");
+  return held.map(name => `${name}: ${lengthTold(away(at, sketch.points[name]))}`).join(", ");
 }
 
 /** A ring around the target pin. */
@@ -393,17 +415,25 @@ async function act(event, kind, of, at, more = {}) {
 const drive = (event, link, at) =>
   act(event, "driver", [link], at, { speed: [Number(find("speed").value) || 0, 0] });
 
-svg.addEventListener("pointerdown", (event) => {
+svg.addEventListener("pointerdown", event => {
   if (!sketch || event.button) return;
   tellAt(event, "");
   const at = spot(event);
-  press = { at, point: pointAt(at), link: linkAt(at), ghost: ghostAt(at), tool: tool(), last: at, typed: "" };
+  press = {
+    at,
+    point: pointAt(at),
+    link: linkAt(at),
+    ghost: ghostAt(at),
+    tool: tool(),
+    last: at,
+    typed: "",
+  };
   svg.focus({ preventScroll: true }); // a length is typed there
   svg.setPointerCapture(event.pointerId);
 });
 
 svg.addEventListener("pointerleave", () => tellPlace(null));
-svg.addEventListener("pointermove", (event) => {
+svg.addEventListener("pointermove", event => {
   if (!sketch || !view) return;
   const at = spot(event);
   tellPlace(at);
@@ -434,11 +464,12 @@ function showDrag(pointer) {
   const step = grid ?? TYPED[press.tool] ?? 0.5; // degrees, as building.py rounds them
   const angle = `${+(Math.round((Math.atan2(dy, dx) * 180) / Math.PI / step) * step).toFixed(3)}°`;
   const slot = press.tool === "block" && linkAt(at, press.point);
-  const words = {
-    plate: () => spokes(at),
-    block: () => (slot ? "" : angle),
-    bar: () => (goal ? length : `${length}, ${angle}`),
-  }[press.tool]?.() ?? length;
+  const words =
+    {
+      plate: () => spokes(at),
+      block: () => (slot ? "" : angle),
+      bar: () => (goal ? length : `${length}, ${angle}`),
+    }[press.tool]?.() ?? length;
   const one = pixel();
   const letter = { x: at[0] + 14 * one, y: -at[1] - 14 * one, "font-size": LETTER * one };
   const drawn = [line("drawn", from, to), element("text", "letter", letter, words)];
@@ -448,7 +479,58 @@ function showDrag(pointer) {
   draw({}, drawn);
 }
 
-svg.addEventListener("pointerup", (event) => {
+/** What a release does, by tool; a tool whose release means nothing here returns false. */
+const released = {
+  pivot: ({ event, at }) => act(event, "pivot", [], at),
+  move: releasedMove,
+  scale: releasedScale,
+  shift: ({ dragged }) => dragged,
+  bar: ({ event, from, at, dragged, end, exact }) =>
+    from.point &&
+    dragged &&
+    act(event, "bar", end ? [from.point, end] : [from.point], at, { exact }),
+  plate: ({ event, from, at }) => from.link && act(event, "plate", [from.link], at),
+  block({ event, from, at, dragged, exact }) {
+    if (!from.point || !dragged) return false;
+    const slot = exact ? undefined : linkAt(at, from.point);
+    return act(event, "block", slot ? [from.point, slot] : [from.point], at, { exact });
+  },
+  wheel({ event, from, at, dragged, exact }) {
+    if (!from.point || !dragged) return false;
+    const rim = rimAt(at, from.point);
+    return act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at, { exact });
+  },
+  driver: ({ event, from, at }) => from.link && drive(event, from.link, at),
+  delete: ({ event, from, at }) =>
+    (from.point || from.link) &&
+    act(event, "delete", [from.point ?? from.link], at, { words: from.point ? "point" : "link" }),
+};
+
+/** A point that was moved: joined with another, put elsewhere, or closed with a ghost. */
+function releasedMove({ event, from, at, dragged }) {
+  if (from.point && dragged) {
+    const goal = pointAt(at, from.point);
+    if (goal) act(event, "join", [from.point, goal], at);
+    else act(event, "move", [from.point], at);
+  } else if (from.ghost && !from.point) {
+    act(event, "close", [from.ghost.key], at, { words: from.ghost.words });
+  }
+  return true;
+}
+
+/** The picture scaled by a dragged line of known length. */
+function releasedScale({ event, from, at, dragged }) {
+  if (!dragged) return false;
+  const length = Number(find("span").value);
+  if (length > 0) {
+    scale(from.at, at, length);
+    fit(true);
+  } else tellAt(event, say("studio.how_scale"));
+  draw();
+  return true;
+}
+
+svg.addEventListener("pointerup", event => {
   const from = press;
   if (!from) return;
   const exact = Boolean(from.typed);
@@ -457,36 +539,8 @@ svg.addEventListener("pointerup", (event) => {
   const dragged = exact || away(at, from.at) > 3 * pixel();
   const end = exact ? undefined : pointAt(at);
   draw();
-  if (from.tool === "shift" && dragged) return;
-  if (from.tool === "scale" && dragged) {
-    const length = Number(find("span").value);
-    if (length > 0) {
-      scale(from.at, at, length);
-      fit(true);
-    } else tellAt(event, say("studio.how_scale"));
-    draw();
-  } else if (from.tool === "pivot") act(event, "pivot", [], at);
-  else if (from.tool === "move" && from.point && dragged) {
-    const goal = pointAt(at, from.point);
-    if (goal) act(event, "join", [from.point, goal], at);
-    else act(event, "move", [from.point], at);
-  }
-  else if (from.tool === "move" && from.ghost && !from.point) {
-    act(event, "close", [from.ghost.key], at, { words: from.ghost.words });
-  } else if (from.tool === "bar" && from.point && dragged) {
-    act(event, "bar", end ? [from.point, end] : [from.point], at, { exact });
-  } else if (from.tool === "plate" && from.link) act(event, "plate", [from.link], at);
-  else if (from.tool === "block" && from.point && dragged) {
-    const slot = exact ? undefined : linkAt(at, from.point);
-    act(event, "block", slot ? [from.point, slot] : [from.point], at, { exact });
-  } else if (from.tool === "wheel" && from.point && dragged) {
-    const rim = rimAt(at, from.point);
-    act(event, "wheel", rim ? [from.point, rim.link] : [from.point], at, { exact });
-  } else if (from.tool === "driver" && from.link) {
-    drive(event, from.link, at);
-  } else if (from.tool === "delete" && (from.point || from.link)) {
-    act(event, "delete", [from.point ?? from.link], at, { words: from.point ? "point" : "link" });
-  } else if (from.tool !== "move") tellAt(event, say(`studio.how_${from.tool}`));
+  const done = released[from.tool]?.({ event, from, at, dragged, end, exact });
+  if (!done) tellAt(event, say(`studio.how_${from.tool}`));
 });
 
 svg.addEventListener("pointercancel", () => {
@@ -496,7 +550,7 @@ svg.addEventListener("pointercancel", () => {
 
 svg.addEventListener(
   "wheel",
-  (event) => {
+  event => {
     if (!sketch || !view) return;
     event.preventDefault();
     see(wheeled(view, event.deltaY, spot(event)));
@@ -521,15 +575,16 @@ find("tools").addEventListener("change", () => {
   explain();
 });
 for (const name of ["pointerdown", "keydown"]) addEventListener(name, () => (told.hidden = true));
-for (const field of ["speed", "span"]) find(field).addEventListener("focus", () => find(field).select());
-find("tools").addEventListener("submit", (event) => event.preventDefault());
+for (const field of ["speed", "span"])
+  find(field).addEventListener("focus", () => find(field).select());
+find("tools").addEventListener("submit", event => event.preventDefault());
 find("speed").addEventListener("keydown", ({ key }) => {
   if (key !== "Enter" || sketch?.driven.length !== 1) return;
   const { left, top } = canvas.getBoundingClientRect();
   drive({ clientX: left, clientY: top }, sketch.driven[0], [0, 0]);
 });
 onPicture(
-  (error) => {
+  error => {
     if (error) tell(error.message, "wrong");
     if (find("picture-tools").hidden && ["shift", "scale"].includes(tool())) find("tools").reset();
     explain();

@@ -27,17 +27,24 @@ function tableOf(lines) {
 
 /** The keys that a table may have; for a new table, the keys of similar tables. */
 function keysOf(place) {
-  const plain = Object.entries(help.keys).map(([name, keys]) => [name.replace(/\[\d+\]/g, ""), keys]);
+  const plain = Object.entries(help.keys).map(([name, keys]) => [
+    name.replace(/\[\d+\]/g, ""),
+    keys,
+  ]);
   const same = plain.filter(([name]) => name === place).flatMap(([, keys]) => keys);
   if (same.length) return same;
-  const [depth, first, last] = [place.split(".").length, place.split(".")[0], place.split(".").at(-1)];
-  const isPoint = (name) => /^[A-Z]/.test(name);
+  const [depth, first, last] = [
+    place.split(".").length,
+    place.split(".")[0],
+    place.split(".").at(-1),
+  ];
+  const isPoint = name => /^[A-Z]/.test(name);
   const alike = plain.filter(([name]) => {
     const parts = name.split(".");
     const own = parts.at(-1) === last || (isPoint(parts.at(-1)) && isPoint(last));
     return parts.length === depth && parts[0] === first && (depth < 3 || own);
   });
-  return alike.flatMap(([, keys]) => keys).filter((key) => /^[a-z]+$/.test(key));
+  return alike.flatMap(([, keys]) => keys).filter(key => /^[a-z]+$/.test(key));
 }
 
 /** The possible words at the cursor, and the part of one that is written. */
@@ -63,7 +70,7 @@ function offers() {
 function offer(asked = false) {
   const [word, known] = offers();
   const low = word.toLowerCase();
-  const begins = known.filter((each) => each.toLowerCase().startsWith(low) && each !== word);
+  const begins = known.filter(each => each.toLowerCase().startsWith(low) && each !== word);
   const found = [...new Set(begins)].slice(0, MOST);
   if (!found.length || !(word || asked)) return close();
   begun = word;
@@ -73,7 +80,7 @@ function offer(asked = false) {
       const item = element("li", each);
       item.role = "option";
       item.id = `offered-${i}`;
-      item.addEventListener("pointerdown", (event) => {
+      item.addEventListener("pointerdown", event => {
         event.preventDefault();
         chosen = i;
         take();
@@ -127,7 +134,7 @@ text.addEventListener("input", ({ inputType }) => (inputType === "insertText" ? 
 text.addEventListener("blur", close);
 text.addEventListener("pointerdown", close);
 text.addEventListener("scroll", () => list.hidden || follow(), { passive: true });
-text.addEventListener("keydown", (event) => {
+text.addEventListener("keydown", event => {
   if (event.key === " " && event.ctrlKey) {
     event.preventDefault();
     offer(true);

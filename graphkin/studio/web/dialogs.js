@@ -22,7 +22,7 @@ export function agreed(question, yes, other = "", lines = []) {
   dialog.returnValue = "";
   dialog.showModal();
   find("no").focus();
-  return new Promise((resolve) => {
+  return new Promise(resolve => {
     find("yes").onclick = () => dialog.close("yes");
     find("other").onclick = () => dialog.close("other");
     find("no").onclick = () => dialog.close();
@@ -45,16 +45,18 @@ export async function saved(what, fields) {
 /** Draw the pictures of items that come into view, one after another. */
 function pictured(items) {
   let last = Promise.resolve();
-  const seen = new IntersectionObserver((entries) => {
+  const seen = new IntersectionObserver(entries => {
     for (const { target, isIntersecting } of entries) {
       if (!isIntersecting) continue;
       seen.unobserve(target);
-      last = last.then(async () => {
-        if (!find("opening").open) return;
-        const { key: kind, name } = target.dataset;
-        const { sketch } = await ask("picture", { kind, name });
-        if (sketch) target.prepend(picture(sketch));
-      }).catch(() => {});
+      last = last
+        .then(async () => {
+          if (!find("opening").open) return;
+          const { key: kind, name } = target.dataset;
+          const { sketch } = await ask("picture", { kind, name });
+          if (sketch) target.prepend(picture(sketch));
+        })
+        .catch(() => {});
     }
   });
   for (const item of items) seen.observe(item);
@@ -65,9 +67,9 @@ function pictured(items) {
 function seek() {
   const words = find("sought").value.toLowerCase().split(/\s+/);
   for (const list of find("opening").querySelectorAll("ul")) {
-    for (const item of list.children) {
+    for (const item of list.querySelectorAll(":scope > li")) {
       const name = item.querySelector("[data-key]").textContent.toLowerCase();
-      item.hidden = !words.every((word) => name.includes(word));
+      item.hidden = !words.every(word => name.includes(word));
     }
   }
 }
@@ -94,9 +96,11 @@ export async function choose(go) {
     }
     return item;
   };
-  find("scenes").replaceChildren(...scenes.map((name) => entry("scene", name)));
+  find("scenes").replaceChildren(...scenes.map(name => entry("scene", name)));
   find("labs").replaceChildren(...labs.map(([name, title]) => entry("lab", name, title)));
-  find("examples").replaceChildren(...examples.map(([name, title]) => entry("example", name, title)));
+  find("examples").replaceChildren(
+    ...examples.map(([name, title]) => entry("example", name, title)),
+  );
   find("no-scenes").hidden = scenes.length > 0;
   find("more-scenes").textContent = more;
   find("from-nothing").onclick = () => {
@@ -113,13 +117,15 @@ export async function choose(go) {
 export function saveSheets(fields, left) {
   const dialog = find("saving");
   const said = find("saving-said");
-  const list = values().map(([name, value]) => `${name} = ${value}`).join(", ");
+  const list = values()
+    .map(([name, value]) => `${name} = ${value}`)
+    .join(", ");
   said.textContent = "";
   find("saving-values").textContent = list && say("studio.drawn_for", { values: list });
   find("sheet-language").value = language;
-  find("saving-form").onsubmit = async (event) => {
+  find("saving-form").onsubmit = async event => {
     event.preventDefault();
-    const formats = [...dialog.querySelectorAll("[name=formats]:checked")].map((box) => box.value);
+    const formats = [...dialog.querySelectorAll("[name=formats]:checked")].map(box => box.value);
     if (!formats.length) {
       said.textContent = say("studio.no_files");
       return;
@@ -137,7 +143,11 @@ export function saveSheets(fields, left) {
       said.textContent = "";
       if (answer?.problems.length) said.textContent = answer.problems.map(sentence).join(" ");
       else if (answer) {
-        tell([say("studio.saved", { list: answer.files.join(", ") }), left()].filter(Boolean).join("; "));
+        tell(
+          [say("studio.saved", { list: answer.files.join(", ") }), left()]
+            .filter(Boolean)
+            .join("; "),
+        );
         dialog.close();
       }
     } catch (error) {

@@ -26,8 +26,8 @@ export function onChoosing(work) {
 
 /** Call back with the name of a clicked mark of the mechanism. */
 export function onPointing(work) {
-  find("mechanism").addEventListener("click", ({ target }) => {
-    const mark = target.closest("#mechanism .drawing [data-name]");
+  find("mechanism").addEventListener("click", event => {
+    const mark = /** @type {Element} */ (event.target).closest("#mechanism .drawing [data-name]");
     if (mark) work(mark.dataset.name);
   });
 }
@@ -46,7 +46,7 @@ export function showDrawings(answer, quick = false) {
     rules = answer.style;
     sheet.replaceSync(rules);
   }
-  const panels = new Map(answer.panels.map((panel) => [panel.name, panel]));
+  const panels = new Map(answer.panels.map(panel => [panel.name, panel]));
   for (const name of names) {
     const figure = find(name);
     const panel = panels.get(name);
@@ -140,7 +140,9 @@ function alone(svg) {
 
 /** Let the browser save a drawing. */
 function take(name) {
-  const file = new Blob([alone(find(name).querySelector(".drawing svg"))], { type: "image/svg+xml" });
+  const file = new Blob([alone(find(name).querySelector(".drawing svg"))], {
+    type: "image/svg+xml",
+  });
   const link = document.createElement("a");
   link.href = URL.createObjectURL(file);
   link.download = `${name}.svg`;

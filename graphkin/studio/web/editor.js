@@ -14,7 +14,7 @@ function pieces(line) {
   let at = 0;
   for (const match of line.matchAll(TOKEN)) {
     if (match.index > at) found.push([line.slice(at, match.index), ""]);
-    found.push([match[0], LOOKS[match.slice(1).findIndex((part) => part !== undefined)]]);
+    found.push([match[0], LOOKS[match.slice(1).findIndex(part => part !== undefined)]]);
     at = match.index + match[0].length;
   }
   if (at < line.length) found.push([line.slice(at), ""]);
@@ -46,6 +46,7 @@ export function editorOf(part) {
   /** The current text. */
   const written = () => text.value;
 
+  /** @type {(kind: string) => void} */
   let wrote = () => {};
 
   /** Call back when the text changes, with the kind of a change that continues: typing or
@@ -56,7 +57,13 @@ export function editorOf(part) {
 
   text.addEventListener("input", ({ inputType = "" }) => {
     forget();
-    wrote(inputType === "insertText" ? "typing" : inputType.startsWith("deleteContent") ? "deleting" : "");
+    wrote(
+      inputType === "insertText"
+        ? "typing"
+        : inputType.startsWith("deleteContent")
+          ? "deleting"
+          : "",
+    );
   });
 
   /** Number the lines and mark those with mistakes; each number is as high as its wrapped line. */
@@ -72,7 +79,7 @@ export function editorOf(part) {
   /** Wrap the text beneath like the textarea, and align the numbers with its lines. */
   function measure() {
     under.style.width = `${text.clientWidth}px`;
-    const heights = [...under.children].map((line) => line.getBoundingClientRect().height);
+    const heights = [...under.children].map(line => line.getBoundingClientRect().height);
     [...gutter.children].forEach((line, i) => (line.style.height = `${heights[i]}px`));
     follow();
   }
@@ -96,7 +103,7 @@ export function editorOf(part) {
     if (JSON.stringify([problems, instead]) === shown) return;
     shown = JSON.stringify([problems, instead]);
     underline(problems);
-    number(new Set(problems.map((each) => each.line)));
+    number(new Set(problems.map(each => each.line)));
     text.setAttribute("aria-invalid", String(problems.length > 0));
     const said = instead || counted(problems.length);
     if (count.textContent !== said) count.textContent = said;
@@ -108,7 +115,7 @@ export function editorOf(part) {
    * the textarea above it only takes input. */
   function underline(problems) {
     let start = 0;
-    const lines = text.value.split("\n").map((words) => {
+    const lines = text.value.split("\n").map(words => {
       const line = element("span");
       let at = 0;
       for (const problem of problems) {
@@ -187,12 +194,13 @@ export function editorOf(part) {
     let left = before.length - before.lastIndexOf("\n") - 1;
     const walk = document.createTreeWalker(line, NodeFilter.SHOW_TEXT);
     while (walk.nextNode()) {
-      if (left <= walk.currentNode.length) {
+      const { length } = walk.currentNode.textContent;
+      if (left <= length) {
         const range = document.createRange();
         range.setStart(walk.currentNode, left);
         return range.getBoundingClientRect();
       }
-      left -= walk.currentNode.length;
+      left -= length;
     }
     return line.getBoundingClientRect();
   }

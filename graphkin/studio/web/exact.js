@@ -10,14 +10,17 @@ export function typedAfter(typed, key) {
 
 /** The length and the angle in degrees of a drag, where they are typed. */
 function numbersIn(typed) {
-  const [length, angle] = typed.split(/[\s<]+/).map((text) => Number.parseFloat(text.replace(",", ".")));
-  return [length, angle].map((number) => (Number.isFinite(number) ? number : null));
+  const [length, angle] = typed
+    .split(/[\s<]+/)
+    .map(text => Number.parseFloat(text.replace(",", ".")));
+  return [length, angle].map(number => (Number.isFinite(number) ? number : null));
 }
 
 /** The end of a drag from a place to the pointer, with a typed length and angle in place of its own. */
 export function typedEnd(typed, [x, y], [u, v], step) {
   const [length, angle] = numbersIn(typed);
-  const own = (Math.round((Math.atan2(v - y, u - x) * 180) / Math.PI / step) * step * Math.PI) / 180;
+  const own =
+    (Math.round((Math.atan2(v - y, u - x) * 180) / Math.PI / step) * step * Math.PI) / 180;
   const turn = angle === null ? own : (angle * Math.PI) / 180;
   const long = length > 0 ? length : Math.hypot(u - x, v - y);
   return [x + long * Math.cos(turn), y + long * Math.sin(turn)];

@@ -14,12 +14,13 @@ export function historyOf(now, show) {
   function note(kind = "") {
     const state = now();
     const time = performance.now();
-    const on = kind && kind === last.kind && time - last.time < TOGETHER && at === states.length - 1;
+    const on =
+      kind && kind === last.kind && time - last.time < TOGETHER && at === states.length - 1;
     last = { kind, time };
     if (JSON.stringify(state) === JSON.stringify(states[at])) return;
     if (!on || at === 0) at++;
     states.splice(at, Infinity, state);
-    if (states.length > MOST) states.shift(), at--;
+    if (states.length > MOST) (states.shift(), at--);
   }
 
   /** Go forward or back by some changes, as far as there are any. */

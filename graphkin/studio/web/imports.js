@@ -4,21 +4,24 @@ import { sentence } from "./mistakes.js";
 import { ask, find, say } from "./talk.js";
 
 const MOST = 512 * 1024; // bytes of a file
-const FOREIGN = /^\s*(https?:\/\/\S+\?|<\?xml|<linkage|<geogebra|M\[\s*J\[|joints\s*\n|\{\s*"|0\s*\n\s*SECTION)/;
+const FOREIGN =
+  /^\s*(https?:\/\/\S+\?|<\?xml|<linkage|<geogebra|M\[\s*J\[|joints\s*\n|\{\s*"|0\s*\n\s*SECTION)/;
 let file = null; // the name and the content of the chosen file, in base 64
 
 /** The content of a file in base 64. */
 async function read(chosen) {
   if (chosen.size > MOST) throw new Error(say("studio.too_large", { name: chosen.name }));
   const bytes = new Uint8Array(await chosen.arrayBuffer());
-  return btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+  return btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join(""));
 }
 
 /** Import what is chosen or pasted; `take` gets the text of a scene, its file name and the notes. */
 export function importing(take) {
   const told = find("import-said");
   const fields = () => {
-    const words = Object.fromEntries(["fixed", "drive", "slides"].map((key) => [key, find(`import-${key}`).value]));
+    const words = Object.fromEntries(
+      ["fixed", "drive", "slides"].map(key => [key, find(`import-${key}`).value]),
+    );
     return { ...words, ...(file ?? { pasted: find("import-pasted").value }) };
   };
   async function bring(given = fields()) {
@@ -37,9 +40,10 @@ export function importing(take) {
     }
     return told.textContent;
   }
-  find("import-file").addEventListener("change", async ({ target }) => {
-    const chosen = target.files[0];
-    target.value = "";
+  find("import-file").addEventListener("change", async () => {
+    const field = find("import-file"),
+      [chosen] = field.files;
+    field.value = "";
     if (!chosen) return;
     try {
       file = { file: await read(chosen), name: chosen.name };
@@ -57,7 +61,7 @@ export function importing(take) {
     find("import-pasted").value = "";
     find("import-drawing").hidden = true;
   });
-  find("text").addEventListener("paste", async (event) => {
+  find("text").addEventListener("paste", async event => {
     const pasted = event.clipboardData.getData("text/plain");
     if (!FOREIGN.test(pasted)) return;
     event.preventDefault();
@@ -72,7 +76,8 @@ export function importing(take) {
 /** Open the manual at the key at the caret of the text that was last written in. */
 export function helping() {
   let last = find("text");
-  for (const text of [find("text"), find("rules")]) text.addEventListener("focus", () => (last = text));
+  for (const text of [find("text"), find("rules")])
+    text.addEventListener("focus", () => (last = text));
   const open = async () => {
     const before = last.value.slice(0, last.selectionStart).split("\n");
     const [line, column] = [before.length - 1, before.at(-1).length];
@@ -81,7 +86,7 @@ export function helping() {
     if (page) page.location.href = new URL(address, location.href).href;
   };
   find("help").addEventListener("click", open);
-  addEventListener("keydown", (event) => {
+  addEventListener("keydown", event => {
     if (event.key !== "F1") return;
     event.preventDefault();
     open();

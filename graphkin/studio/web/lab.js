@@ -1,6 +1,6 @@
 // A lab next to its scene: its rules as a text, the class that they make, and proposed ranges.
 
-import { change, editorOf, written } from "./editor.js";
+import { change, editorOf } from "./editor.js";
 import { sentence } from "./mistakes.js";
 import { ask, button, element, find, language, onSpeaking, say, tell } from "./talk.js";
 
@@ -39,7 +39,8 @@ export function labOf(fields, beginning, opening) {
 /** Allow the search for ranges only for a complete lab, or say what must be corrected first. */
 function ready() {
   const { scene_wrong: scene, problems = [] } = refused;
-  const why = unread || scene ? say("studio.scene_first") : problems.length ? say("studio.rules_first") : "";
+  const why =
+    unread || scene ? say("studio.scene_first") : problems.length ? say("studio.rules_first") : "";
   find("find-ranges").disabled = searching || Boolean(why);
   find("why-no-ranges").textContent = why;
 }
@@ -86,7 +87,7 @@ export function trySoon(pause = REST) {
   clearTimeout(timer);
   if (find("rules-part").hidden || !writtenRules()) return;
   room.classList.toggle("old", tried !== texts());
-  timer = setTimeout(() => attempt().catch((error) => fairness(error.message, true)), pause);
+  timer = setTimeout(() => attempt().catch(error => fairness(error.message, true)), pause);
 }
 
 const texts = () => JSON.stringify([scene().text, writtenRules(), language]);
@@ -148,28 +149,29 @@ function map({ shares, closest, apart }) {
   );
 }
 
-find("neighbours").addEventListener("pointerover", ({ target }) => {
-  const { own, other, share } = target.dataset;
-  if (!(share >= 0)) return;
+find("neighbours").addEventListener("pointerover", event => {
+  const { own, other, share } = /** @type {Element} */ (event.target).dataset;
+  if (!(Number(share) >= 0)) return;
   const gaps = { own: students[own].name, other: students[other].name, share };
   find("pointed").textContent = say("studio.earns_of", gaps);
 });
-find("neighbours").addEventListener("click", ({ target }) => {
-  if (target.dataset.own) choose(students[target.dataset.own]);
+find("neighbours").addEventListener("click", event => {
+  const { own } = /** @type {Element} */ (event.target).dataset;
+  if (own) choose(students[own]);
 });
 
 /** List the students of the class; each entry opens the student's sheets. */
 function list() {
   find("students").hidden = !students.length;
   find("students").tBodies[0].replaceChildren(
-    ...students.map((student) => {
+    ...students.map(student => {
       const row = element("tr", "", student.name === chosen ? "chosen" : "");
       const head = element("th");
       head.scope = "row";
       head.append(button(student.name, () => choose(student)));
       const earns = student.earns && `${student.earns} (${student.whose})`;
       const { data, faults, flattest, shortest } = student;
-      const cells = [data, faults, flattest, shortest, earns].map((words) => element("td", words));
+      const cells = [data, faults, flattest, shortest, earns].map(words => element("td", words));
       cells[1].className = "faults";
       row.append(head, ...cells);
       return row;
@@ -180,7 +182,7 @@ function list() {
 function choose(student) {
   chosen = student.name;
   list();
-  sheets(student).catch((error) => tell(error.message, "wrong"));
+  sheets(student).catch(error => tell(error.message, "wrong"));
   find("student-sheets").scrollIntoView({ block: "nearest" });
 }
 
@@ -196,7 +198,7 @@ async function sheets(student) {
   part.removeAttribute("aria-busy");
   const pages = find("student-pages");
   for (const old of pages.querySelectorAll("img")) URL.revokeObjectURL(old.src);
-  pages.replaceChildren(...answer.problems.map((each) => element("p", sentence(each), "wrong")));
+  pages.replaceChildren(...answer.problems.map(each => element("p", sentence(each), "wrong")));
   for (const text of answer.sheets) {
     const page = element("img");
     page.src = URL.createObjectURL(new Blob([text], { type: "image/svg+xml" }));
@@ -262,7 +264,7 @@ function showAdvice({ fair, shares, ranges, rules: after, kept, formula, mending
 }
 
 toggle.addEventListener("click", () =>
-  showClass(!inClass()).catch((error) => tell(error.message, "wrong")),
+  showClass(!inClass()).catch(error => tell(error.message, "wrong")),
 );
 find("find-ranges").addEventListener("click", propose);
 find("student-view").addEventListener("change", () => {

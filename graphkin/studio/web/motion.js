@@ -72,7 +72,7 @@ function offer(drivers, page) {
 }
 
 find("motion-kind").addEventListener("change", () => moveSoon(0));
-find("motion-kind").addEventListener("submit", (event) => event.preventDefault());
+find("motion-kind").addEventListener("submit", event => event.preventDefault());
 onSpeaking(() => {
   frame.title = say("studio.motion");
   shown = "";

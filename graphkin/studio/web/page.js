@@ -7,10 +7,29 @@ import { onChoosing, onMechanism, onPointing, showDrawings } from "./drawings.js
 import { change, go as goTo, onWriting, replace, showProblems, written } from "./editor.js";
 import { historyOf } from "./history.js";
 import { helping, importing } from "./imports.js";
-import { inClass, labOf, markScene, onWritingRules, replaceRules, showClass, showRules, trySoon, writtenRules } from "./lab.js";
+import {
+  inClass,
+  labOf,
+  markScene,
+  onWritingRules,
+  replaceRules,
+  showClass,
+  showRules,
+  trySoon,
+  writtenRules,
+} from "./lab.js";
 import { counted, sentence } from "./mistakes.js";
 import { inMotion, motionOf, moveSoon, showMotion } from "./motion.js";
-import { forgetMoves, held as isHeld, markSliders, onMoving, setMoves, settings, showSliders, writing } from "./sliders.js";
+import {
+  forgetMoves,
+  held as isHeld,
+  markSliders,
+  onMoving,
+  setMoves,
+  settings,
+  showSliders,
+  writing,
+} from "./sliders.js";
 import { ask, find, language, say, speak, tell } from "./talk.js";
 
 const PAUSE = 150; // ms without typing before the text is read
@@ -36,7 +55,9 @@ const scene = () => ({ text: written(), name: file.value.trim(), settings: setti
 
 /** Whether nothing is built yet, and nothing that is written is wrong. */
 const isBare = ({ sketch, problems }) =>
-  sketch && ![...Object.keys(sketch.points), ...Object.keys(sketch.links)].length && problems.every(({ line }) => !line);
+  sketch &&
+  ![...Object.keys(sketch.points), ...Object.keys(sketch.links)].length &&
+  problems.every(({ line }) => !line);
 
 /** Request a look at the current scene and show the answer, unless a newer one is shown; returns
  * whether it was. */
@@ -179,7 +200,11 @@ async function settled() {
     return null;
   }
   if (!edits.length) return "";
-  const list = (key) => edits.map((edit) => `${edit.name} = ${edit[key]}`).reverse().join(", ");
+  const list = key =>
+    edits
+      .map(edit => `${edit.name} = ${edit[key]}`)
+      .reverse()
+      .join(", ");
   const gaps = { moved: list("text"), written: list("before") };
   const question = say("studio.moved", gaps);
   const answer = await agreed(question, say("studio.write_save", gaps), say("studio.save_text"));
@@ -236,7 +261,8 @@ async function sheets() {
   state();
   await look(false);
   if (find("status").classList.contains("wrong")) return;
-  if (!wrong.length) saveSheets(scene, () => (isSafe() ? "" : `${file.value}: ${say("studio.unsaved")}`));
+  if (!wrong.length)
+    saveSheets(scene, () => (isSafe() ? "" : `${file.value}: ${say("studio.unsaved")}`));
   else {
     tell(`${say("studio.mend_first")} ${sentence(wrong[0])}`, "wrong");
     find("problems").querySelector("button")?.focus();
@@ -272,7 +298,7 @@ async function intoText() {
 
 const changes = historyOf(
   () => ({ text: written(), rules: writtenRules(), moved: settings() }),
-  (state) => {
+  state => {
     setMoves(state.moved);
     back = true;
     replace(state.text);
@@ -281,13 +307,13 @@ const changes = historyOf(
     look(false);
   },
 );
-onWriting((kind) => {
+onWriting(kind => {
   if (!back) changes.note(kind);
   state();
   soon();
   trySoon();
 });
-onWritingRules((kind) => {
+onWritingRules(kind => {
   if (!back) changes.note(kind);
   state();
   trySoon();
@@ -300,7 +326,7 @@ onMoving((quick, name) => {
 for (const which of ["undo", "redo"]) {
   find(which).addEventListener("click", () => changes[which]());
   for (const text of [find("text"), find("rules")]) {
-    text.addEventListener("beforeinput", (event) => {
+    text.addEventListener("beforeinput", event => {
       if (event.inputType !== `history${which[0].toUpperCase()}${which.slice(1)}`) return;
       event.preventDefault();
       changes[which]();
@@ -308,7 +334,7 @@ for (const which of ["undo", "redo"]) {
   }
 }
 onChoosing(() => look(false));
-onPointing((name) => {
+onPointing(name => {
   if (!spots[name]) return;
   const [start, end] = spots[name];
   goTo({ start, end });
@@ -324,7 +350,7 @@ find("empty").addEventListener("click", () => {
 });
 find("open").addEventListener("click", () => {
   state();
-  choose(go).catch((error) => tell(error.message, "wrong"));
+  choose(go).catch(error => tell(error.message, "wrong"));
 });
 find("save").addEventListener("click", save);
 find("sheets").addEventListener("click", sheets);
@@ -335,8 +361,8 @@ find("reset").addEventListener("click", () => {
   changes.note();
   look(false);
 });
-find("parameters").addEventListener("submit", (event) => event.preventDefault());
-addEventListener("keydown", (event) => {
+find("parameters").addEventListener("submit", event => event.preventDefault());
+addEventListener("keydown", event => {
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") {
     event.preventDefault();
     save();
@@ -344,25 +370,28 @@ addEventListener("keydown", (event) => {
 });
 
 /** Whether a key belongs to the field in which it is pressed. */
-const own = (field) => {
+const own = field => {
   if (field.closest?.("dialog") || field === file) return true;
   return Boolean(field.dataset?.value !== undefined && writing(field));
 };
 
-addEventListener("keydown", (event) => {
+addEventListener("keydown", event => {
   const key = event.key.toLowerCase();
   if (!(event.ctrlKey || event.metaKey) || !["z", "y"].includes(key) || own(event.target)) return;
   event.preventDefault();
   if (key === "y" || event.shiftKey) changes.redo();
   else changes.undo();
 });
-addEventListener("beforeunload", (event) => {
+addEventListener("beforeunload", event => {
   if (!isSafe()) event.preventDefault();
 });
 /** Turn the file into a lab: a folder with a scene and its rules. */
 function asLab() {
   held = { ...held, lab: true };
-  const stem = file.value.trim().replace(/^.*\//, "").replace(/\.toml$/, "");
+  const stem = file.value
+    .trim()
+    .replace(/^.*\//, "")
+    .replace(/\.toml$/, "");
   if (!/(^|\/)scene\.toml$/.test(file.value.trim())) file.value = `${stem}/scene.toml`;
   state();
 }
@@ -398,9 +427,9 @@ onBuilding(() => {
 const query = new URLSearchParams(location.search);
 if (query.has("empty")) building(true);
 else look(false);
-if (query.has("rules")) showRules().catch((error) => tell(error.message, "wrong"));
+if (query.has("rules")) showRules().catch(error => tell(error.message, "wrong"));
 if (query.has("gallery")) {
-  choose(go).catch((error) => tell(error.message, "wrong"));
+  choose(go).catch(error => tell(error.message, "wrong"));
 }
 find("language").value = language;
 if (query.get("lang") === language) chosen = language;

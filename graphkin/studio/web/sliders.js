@@ -7,6 +7,7 @@ const write = find("write");
 const reset = find("reset");
 const rows = new Map();
 let moved = {};
+/** @type {(quick: boolean, name?: string) => void} */
 let changed = () => {};
 let anew = false; // a value is also shown in the field being edited
 let holding = false; // a slider is held by the pointer
@@ -21,7 +22,7 @@ export const values = () => [...rows].map(([name, row]) => [name, row.field.valu
 export const held = () => holding;
 
 /** Whether a field holds an edit that is not entered yet. */
-export const writing = (field) => field.value.trim() !== field.dataset.value;
+export const writing = field => field.value.trim() !== field.dataset.value;
 
 /** Call back when a slider moves (quick, with its name) or is released, or a value is entered. */
 export function onMoving(work) {
@@ -42,7 +43,7 @@ export function forgetMoves() {
 
 /** Show the parameters; a slider that is held keeps its place. */
 export function showSliders(sliders) {
-  const known = new Set(sliders.map((slider) => slider.name));
+  const known = new Set(sliders.map(slider => slider.name));
   moved = Object.fromEntries(Object.entries(moved).filter(([name]) => known.has(name)));
   for (const [name, row] of rows) {
     if (!known.has(name)) {
@@ -64,7 +65,7 @@ export function showSliders(sliders) {
 
 /** Mark the fields whose values are refused. */
 export function markSliders(problems) {
-  const wrong = new Set(problems.map((each) => each.setting));
+  const wrong = new Set(problems.map(each => each.setting));
   for (const [name, row] of rows) row.field.setAttribute("aria-invalid", String(wrong.has(name)));
 }
 
@@ -73,7 +74,7 @@ onSpeaking(() => {
   if (!rows.size && box.textContent) box.textContent = say("studio.no_parameters");
 });
 
-const valueOf = (name) => say("studio.value_of", { name });
+const valueOf = name => say("studio.value_of", { name });
 
 function enable() {
   write.disabled = reset.disabled = Object.keys(moved).length === 0;
@@ -116,8 +117,8 @@ function made(name) {
     enable();
     changed(false);
   });
-  field.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") event.preventDefault(), field.dispatchEvent(new Event("change"));
+  field.addEventListener("keydown", event => {
+    if (event.key === "Enter") (event.preventDefault(), field.dispatchEvent(new Event("change")));
   });
   return row;
 }

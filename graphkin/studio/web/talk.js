@@ -34,7 +34,7 @@ export async function listed() {
   }
 }
 
-export const find = (id) => document.getElementById(id);
+export const find = id => document.getElementById(id);
 
 /** A new element of the page. */
 export function element(name, words = "", look = "") {

@@ -77,5 +77,6 @@ function show() {
   find("picture-tools").hidden = !picture;
   if (!picture) return;
   const { image, x, y, width, height } = picture;
-  for (const [key, value] of Object.entries({ x, y: -y, width, height })) image.setAttribute(key, value);
+  for (const [key, value] of Object.entries({ x, y: -y, width, height }))
+    image.setAttribute(key, value);
 }

@@ -4,7 +4,12 @@ const NOTCH = 1.25; // zoom of a key
 const STRIDE = 0.1; // parts of the width by which an arrow key pans
 const WHEEL = 1.0015; // zoom for a dot of the wheel
 
-/** A view zoomed by a factor; a place of the scene stays where it is. */
+/**
+ * A view zoomed by a factor; a place of the scene stays where it is.
+ * @param {{ x: number, y: number, width: number }} view
+ * @param {number} factor
+ * @param {number[]} place
+ */
 export const zoomed = ({ x, y, width }, factor, [u, v]) => ({
   x: u + (x - u) * factor,
   y: -v + (y + v) * factor,

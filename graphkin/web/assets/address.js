@@ -1,24 +1,36 @@
 // The step and the driver's position in the address of the page.
-let address = location.hash, keeping = 0;
+import { drive } from "./driver.js";
+import { changed_figures, keep_figure, led_to, reset_figures } from "./figures.js";
+import { motion, moved, state } from "./page.js";
+import { show } from "./stepping.js";
+
+let address = location.hash,
+  keeping = 0;
 
 /** Write step and position to the address once nothing has moved for a moment. */
-function remember() {
+export function remember() {
   clearTimeout(keeping);
   keeping = setTimeout(keep, 120);
 }
 
 function keep() {
   if (location.hash !== address) return; // the address has changed in the meantime
-  const set = changed_figures().map(({ key, k }) => `${key}:${Number(state.figures[k].toFixed(4))}`).join();
-  const x = (moved() ? `&x=${Number(state.x.toFixed(4))}` : "") + (set && `&set=${encodeURIComponent(set)}`);
+  const set = changed_figures()
+    .map(({ key, k }) => `${key}:${Number(state.figures[k].toFixed(4))}`)
+    .join();
+  const x =
+    (moved() ? `&x=${Number(state.x.toFixed(4))}` : "") +
+    (set && `&set=${encodeURIComponent(set)}`);
   try {
     history.replaceState(null, "", `#step=${state.step}${x}`);
-  } catch { /* a page shown inside another may not */ }
+  } catch {
+    /* a page shown inside another may not */
+  }
   address = location.hash;
 }
 
 /** Go to the step and position that the address gives. */
-function follow_address() {
+export function follow_address() {
   address = location.hash;
   const said = new URLSearchParams(address.slice(1));
   const x = Number.parseFloat(said.get("x"));

@@ -1,13 +1,22 @@
 // The beginning: the whole mechanism is shown as a ghost and moves once through its range.
-const STILL = matchMedia("(prefers-reduced-motion:reduce)");
-const SWEEP = 5000; // milliseconds of the sweep
+import { make_figures } from "./figures.js";
+import { byId, data, motion, moved, page, state, STILL } from "./page.js";
+import { sheets } from "./sheets.js";
+import { DRAWN, put } from "./zoom.js";
+
+export const SWEEP = 5000; // milliseconds of the sweep
 const ghosts = data.ghosts.map(k => byId(`m0-${k}`));
-sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
-if (motion) make_figures();
-let ghost = 0, shown_once = false;
+let ghost = 0,
+  shown_once = false;
+
+/** Put the task into the empty plan, and make its numbers draggable. */
+export function show_task() {
+  sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
+  if (motion) make_figures();
+}
 
 /** Show the ghost at the first step and remove it elsewhere. */
-function begin() {
+export function begin() {
   const here = state.step === 0;
   page.classList.toggle("beginning", here);
   for (const mark of ghosts) mark.classList.toggle("ghost", here);
@@ -30,10 +39,16 @@ function sweep() {
 
 /** The driver's position after a part of the way: a full turn, or to one end, to the other and back. */
 function along(part) {
-  const { low, high, start, whole } = motion, eased = part - Math.sin(2 * Math.PI * part) / (2 * Math.PI);
-  const way = 2 * (high - low) * eased, up = high - start;
-  if (whole) return low + (start - low + way / 2) % (high - low);
-  return way < up ? start + way : way < up + high - low ? high - (way - up) : low + (way - up - (high - low));
+  const { low, high, start, whole } = motion,
+    eased = part - Math.sin(2 * Math.PI * part) / (2 * Math.PI);
+  const way = 2 * (high - low) * eased,
+    up = high - start;
+  if (whole) return low + ((start - low + way / 2) % (high - low));
+  return way < up
+    ? start + way
+    : way < up + high - low
+      ? high - (way - up)
+      : low + (way - up - (high - low));
 }
 
 /** Put the ghost back to the drawn position. */

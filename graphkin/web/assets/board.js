@@ -1,9 +1,21 @@
 // The board of a task page: where its moves are kept, its keys and buttons, and its beginning.
+import { show_turn } from "./board_marks.js";
+import { byId, page, state, style } from "./board_page.js";
+import { draw_log, follow_letters, log_of, tell_turn, turn, worded } from "./board_state.js";
+import { draw_move } from "./choosing.js";
+import { forget_own_lines, keep_past, redo, undo } from "./history.js";
+import { choose_action, forget_inputs } from "./picking.js";
+import { sheets } from "./sheets.js";
+import { EVENTS, in_turn } from "./turn_events.js";
+import { light_up } from "./turn_marks.js";
+import { draw_typed, show_typed } from "./typing.js";
+import { look, show_all } from "./zoom.js";
+
 const kept_in = document.querySelector("form.answers input[name=drawing]");
-const MEMORY = `graphkin board ${location.pathname} ${[...byId("board").textContent].reduce((sum, letter) => Math.imul(31, sum) + letter.codePointAt(0) | 0, 7)}`;
+const MEMORY = `graphkin board ${location.pathname} ${[...byId("board").textContent].reduce((sum, letter) => (Math.imul(31, sum) + letter.codePointAt(0)) | 0, 7)}`;
 
 /** Keep the moves with the answers, or in this browser where the page has no form. */
-function keep_board() {
+export function keep_board() {
   const log = log_of();
   if (kept_in) {
     if (kept_in.value === log) return;
@@ -13,13 +25,15 @@ function keep_board() {
   }
   try {
     localStorage.setItem(MEMORY, log);
-  } catch { /* it is lost with the page */ }
+  } catch {
+    /* it is lost with the page */
+  }
 }
 
 /** The moves that were kept. */
 function kept_log() {
   try {
-    return kept_in ? kept_in.value : localStorage.getItem(MEMORY) ?? "";
+    return kept_in ? kept_in.value : (localStorage.getItem(MEMORY) ?? "");
   } catch {
     return "";
   }
@@ -32,7 +46,11 @@ function recall_board() {
   forget_own_lines();
   Object.assign(turn, { lines: [], log: [], past: [], future: [], fresh: [] });
   const whole = draw_log(log);
-  turn.past = turn.lines.map((_, i) => ({ done: [], log: turn.log.slice(0, i), lines: turn.lines.slice(0, i) })); // each move can be taken back
+  turn.past = turn.lines.map((_, i) => ({
+    done: [],
+    log: turn.log.slice(0, i),
+    lines: turn.lines.slice(0, i),
+  })); // each move can be taken back
   tell_turn(worded(whole ? "begin" : "broken", { number: turn.lines.length }));
   show_turn();
 }
@@ -55,26 +73,28 @@ function turn_again() {
 /** Give each field of a sheet its share of the width, and all that it shows. */
 function fit() {
   for (const { fields } of sheets) for (const one of fields) one.drawn = null; // nothing is drawn that a frame could close on
-  wanted = false;
+  show_all();
   style(page, "--dock", `${Math.min(byId("dock").offsetHeight, innerHeight / 2)}px`);
   look();
   light_up();
 }
 
 for (const type of EVENTS) document.addEventListener(type, in_turn, true);
-for (const [name, act] of [["turn-undo", undo], ["turn-redo", redo], ["turn-again", turn_again]]) byId(name).addEventListener("click", act);
+const acts = { "turn-undo": undo, "turn-redo": redo, "turn-again": turn_again };
+for (const [name, act] of Object.entries(acts)) byId(name).addEventListener("click", act);
 byId("turn-sheet").addEventListener("click", () => {
   state.step = (state.step + 1) % sheets.length;
   show_turn();
 });
-for (const [name, act] of [["turn-form", draw_move], ["turn-type", draw_typed]]) {
+for (const [name, act] of Object.entries({ "turn-form": draw_move, "turn-type": draw_typed })) {
   byId(name).addEventListener("submit", event => {
     event.preventDefault();
     act();
   });
 }
 byId("turn-typed").addEventListener("input", show_typed);
-for (const button of byId("palette").children) button.addEventListener("click", () => choose_action(button.dataset.action));
+for (const button of byId("palette").children)
+  button.addEventListener("click", () => choose_action(button.dataset.action));
 kept_in?.addEventListener("change", recall_board); // another file of answers was opened
 addEventListener("resize", fit);
 follow_letters();

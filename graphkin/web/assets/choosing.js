@@ -1,9 +1,27 @@
 // An action with all its inputs is drawn; of two results the student chooses one.
-function draw_move() {
+import { byId } from "#page";
+import {
+  check_move,
+  CHOICE,
+  picks,
+  plane_of,
+  results_of,
+  same_value,
+  tell_turn,
+  turn,
+  worded,
+} from "#turn";
+import { is_complete, show_picks, slots_of } from "./picking.js";
+
+export function draw_move() {
   if (!is_complete()) return;
-  const { action } = turn, given = turn.inputs.slice(0, slots_of(action).length), plane = plane_of(action, given);
+  const { action } = turn,
+    given = turn.inputs.slice(0, slots_of(action).length),
+    plane = plane_of(action, given);
   const found = results_of(action, given);
-  if (CHOICE.includes(action) && found.length > 1 && !all_alike(action, found, plane)) {
+  const apart = action === "cut" && picks[given[0]].plane !== picks[given[1]].plane;
+  const is_choice = CHOICE.includes(action) && found.length > 1 && !apart;
+  if (is_choice && !all_alike(action, found, plane)) {
     const at_keys = keys_within();
     turn.asked = Object.assign(different(action, found, plane), { plane, given });
     tell_turn(worded("which"));
@@ -14,17 +32,21 @@ function draw_move() {
   check_move(action, given, found, plane);
 }
 
-const all_alike = (action, found, plane) => found.every(one => same_value(action, one, found[0], plane));
-const different = (action, found, plane) => found.filter((one, i) => found.findIndex(other => same_value(action, one, other, plane)) === i);
+export const all_alike = (action, found, plane) =>
+  found.every(one => same_value(action, one, found[0], plane));
+export const different = (action, found, plane) =>
+  found.filter((one, i) => found.findIndex(other => same_value(action, one, other, plane)) === i);
 
 /** Go on with the result that the student has chosen out of two. */
-function settle_which(which) {
-  const { given, plane } = turn.asked, found = [turn.asked[which]];
-  const other = turn.asked[1 - which], { action } = turn;
+export function settle_which(which) {
+  const { given, plane } = turn.asked,
+    found = [turn.asked[which]];
+  const other = turn.asked[1 - which],
+    { action } = turn;
   if (keys_within()) byId("inputs").querySelector("select").focus({ preventScroll: true });
   turn.asked = null;
   check_move(action, given, found, plane, other);
 }
 
 /** Whether the keyboard focus is in the lists, where it must stay. */
-const keys_within = () => byId("turn-form").contains(document.activeElement);
+export const keys_within = () => byId("turn-form").contains(document.activeElement);

@@ -1,23 +1,40 @@
 // The driver, and all that follows it.
-const DEAD = Math.sin(Math.PI / 180), FAR = 1e-4; // least sines of crossings: for hand drawing, and for far centres and poles
-const driver = motion && byId("driver");
-const notes = motion ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
-  const one = document.createElement("small");
-  one.className = "moved-note";
-  name.after(one);
-  return one;
-}) : [];
+import { html_element } from "./elements.js";
+import { remember } from "./address.js";
+import { changed_figures, knob, plain, tell_figures } from "./figures.js";
+import { follow_pins } from "./grab.js";
+import { halos } from "./halos.js";
+import { written } from "./numbers.js";
+import { byId, data, motion, moved, page, state } from "./page.js";
+import { places, tell_rates, warn } from "./sentences.js";
+import { sheets } from "./sheets.js";
+import { read } from "./values.js";
+import { lift } from "./writing.js";
+import { look, put } from "./zoom.js";
+
+const DEAD = Math.sin(Math.PI / 180),
+  FAR = 1e-4; // least sines of crossings: for hand drawing, and for far centres and poles
+export const driver = motion && byId("driver");
+const notes = motion
+  ? [...document.querySelectorAll(".sheet h2, #given-name")].map(name => {
+      const one = html_element("small");
+      one.className = "moved-note";
+      name.after(one);
+      return one;
+    })
+  : [];
 if (motion) {
   const { low, high, start, step } = motion;
   const min = start - Math.floor((start - low) / step) * step; // so that one stop is the starting position
-  for (const [name, value] of Object.entries({ min, max: high, step })) driver.setAttribute(name, value);
+  for (const [name, value] of Object.entries({ min, max: high, step }))
+    driver.setAttribute(name, value);
 }
 
 const REST = 250; // milliseconds without movement after which the driver rests
 let resting = 0;
 
 /** Set the driver to a position. */
-function drive(x, glides = false) {
+export function drive(x, glides = false) {
   place_driver(x);
   look(glides);
   follow_pins();
@@ -25,7 +42,7 @@ function drive(x, glides = false) {
 }
 
 /** Move the driver; scale and frame stay as they are during the movement. */
-function move(x) {
+export function move(x) {
   const first = !state.going;
   state.going = true;
   clearTimeout(resting);
@@ -64,7 +81,11 @@ function place_driver(x) {
   const dead = flat.some(step => !data.aside.includes(step));
   state.dead = !ok || dead;
   clear_off(!ok, flat);
-  byId("place").textContent = !ok ? byId("place").dataset.open : dead ? byId("place").dataset.dead : "";
+  byId("place").textContent = !ok
+    ? byId("place").dataset.open
+    : dead
+      ? byId("place").dataset.dead
+      : "";
   if (!state.dead) read();
   tell_rates();
   page.classList.toggle("silent", state.dead);
@@ -74,13 +95,14 @@ function place_driver(x) {
 
 /** The driver position meant by a number; an angle may differ by whole turns. */
 function meant(x) {
-  const { low, high, unit } = motion, off = x < low || x > high;
+  const { low, high, unit } = motion,
+    off = x < low || x > high;
   const turned = off && unit === "deg" ? x - 360 * Math.round((x - (low + high) / 2) / 360) : x;
   return Math.min(Math.max(turned, low), high);
 }
 
 /** A position of the driver in words. */
-function place_of(x) {
+export function place_of(x) {
   const { digits, unit } = byId("driven").dataset;
   return written(x, Number(digits)) + unit;
 }
@@ -88,7 +110,9 @@ function place_of(x) {
 /** The steps whose lines cross at too flat an angle. */
 function flat_crossings() {
   const sines = Object.entries(motion.margins(state.x)).map(([step, sine]) => [Number(step), sine]);
-  return sines.filter(([step, sine]) => sine < (data.aside.includes(step) ? FAR : DEAD)).map(([step]) => step);
+  return sines
+    .filter(([step, sine]) => sine < (data.aside.includes(step) ? FAR : DEAD))
+    .map(([step]) => step);
 }
 
 let cleared = "";
@@ -100,7 +124,8 @@ function clear_off(all, flat) {
   cleared = now;
   for (const { of } of sheets) {
     for (const [step, marks] of of) {
-      const gone = step in data.hangs && (all || flat.some(crossing => data.hangs[step].includes(crossing)));
+      const gone =
+        step in data.hangs && (all || flat.some(crossing => data.hangs[step].includes(crossing)));
       for (const mark of marks) mark.classList.toggle("void", gone);
     }
   }
@@ -108,9 +133,14 @@ function clear_off(all, flat) {
 
 /** Note next to drawings and data where the driver is, and for which position they were checked. */
 function note(shown) {
-  const { name, moved: words } = byId("read").dataset, changed = changed_figures();
+  const { name, moved: words } = byId("read").dataset,
+    changed = changed_figures();
   const own = state.x !== motion.start || !changed.length;
-  const list = (place, told) => [...(own ? [`${name} = ${place}`] : []), ...changed.map(one => `${one.name} = ${told(one)}`)].join(", "); // markup of symbols, escaped by its maker
+  const list = (place, told) =>
+    [
+      ...(own ? [`${name} = ${place}`] : []),
+      ...changed.map(one => `${one.name} = ${told(one)}`),
+    ].join(", "); // markup of symbols, escaped by its maker
   const here = list(shown, ({ k }) => knob(k).told());
   const start = list(place_of(motion.start), one => plain(motion.drawn[one.k]) + one.unit);
   for (const one of notes) {

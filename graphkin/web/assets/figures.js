@@ -1,13 +1,41 @@
 // The figures: numbers of the data that can be dragged or changed by keys, with all that depends on them.
+import { html_element } from "./elements.js";
+import { move, place_of } from "./driver.js";
+import { nudge } from "./grab.js";
+import { written } from "./numbers.js";
+import { byId, motion, state } from "./page.js";
+import { rest_from_travel } from "./travel.js";
+import { next_frame, while_down } from "./view.js";
+
 const PULL = 5; // dots of dragging per step
 const led_by = []; // the elements that show each figure
 
 /** The control of a figure; number -1 is the driver itself, or the time. */
-function knob(k) {
+export function knob(k) {
   const one = motion?.figures[k];
-  if (!one) return { k, low: motion.low, high: motion.high, step: motion.step, whole: motion.whole, now: () => state.x, put: move, told: () => place_of(state.x), at: (id, x) => motion.place(id, x) };
-  const shown = () => written(motion.read(one.shows, state.x), one.moves < 0 ? 1 : places_of(one.step)) + one.unit;
-  return { k, ...one, whole: false, now: () => state.figures[k], put: value => set_figure(k, value), told: shown, at: (id, value) => motion.place(id, state.x, k, value) };
+  if (!one)
+    return {
+      k,
+      low: motion.low,
+      high: motion.high,
+      step: motion.step,
+      whole: motion.whole,
+      now: () => state.x,
+      put: move,
+      told: () => place_of(state.x),
+      at: (id, x) => motion.place(id, x),
+    };
+  const shown = () =>
+    written(motion.read(one.shows, state.x), one.moves < 0 ? 1 : places_of(one.step)) + one.unit;
+  return {
+    k,
+    ...one,
+    whole: false,
+    now: () => state.figures[k],
+    put: value => set_figure(k, value),
+    told: shown,
+    at: (id, value) => motion.place(id, state.x, k, value),
+  };
 }
 
 /** The number of decimals of a step. */
@@ -16,8 +44,9 @@ function places_of(step) {
 }
 
 /** Store a figure within its range, without moving anything yet. */
-function keep_figure(k, value) {
-  const { low, high, start, step } = motion.figures[k], next = Math.min(Math.max(value, low), high);
+export function keep_figure(k, value) {
+  const { low, high, start, step } = motion.figures[k],
+    next = Math.min(Math.max(value, low), high);
   state.figures[k] = Math.abs(next - start) < 1e-6 * step ? start : next;
   motion.figure(k, state.figures[k]);
 }
@@ -29,19 +58,28 @@ function set_figure(k, value) {
 }
 
 /** The driver position that some figures set; the current position if they set none. */
-function led_to(some, x) {
-  return motion.stands >= 0 && some.some(({ moves }) => moves > 0) ? motion.read(motion.stands, x) : x;
+export function led_to(some, x) {
+  return motion.stands >= 0 && some.some(({ moves }) => moves > 0)
+    ? motion.read(motion.stands, x)
+    : x;
 }
 
 /** Reset all figures to their drawn values. */
-function reset_figures() {
+export function reset_figures() {
   motion?.figures.forEach(({ start }, k) => keep_figure(k, start));
 }
 
 /** A draggable number, to be put next to its name. */
 function dragged_number(k) {
-  const one = knob(k), number = document.createElement("span");
-  const words = { class: "figure", role: "slider", tabindex: 0, "aria-valuemin": one.low, "aria-valuemax": one.high };
+  const one = knob(k),
+    number = html_element("span");
+  const words = {
+    class: "figure",
+    role: "slider",
+    tabindex: 0,
+    "aria-valuemin": one.low,
+    "aria-valuemax": one.high,
+  };
   for (const [name, value] of Object.entries(words)) number.setAttribute(name, value);
   number.addEventListener("pointerdown", event => pull(event, one, number));
   number.addEventListener("keydown", event => nudge(event, one));
@@ -56,16 +94,21 @@ function pull(event, one, number) {
   number.focus({ preventScroll: true });
   number.setPointerCapture(event.pointerId);
   rest_from_travel();
-  const from = one.now(), went = moved => {
-    const steps = Math.round((moved.clientX - event.clientX - moved.clientY + event.clientY) / PULL);
-    next_frame(number.follow = () => one.put(from + steps * one.step));
-  };
+  const from = one.now(),
+    went = moved => {
+      const steps = Math.round(
+        (moved.clientX - event.clientX - moved.clientY + event.clientY) / PULL,
+      );
+      next_frame((number.follow = () => one.put(from + steps * one.step)));
+    };
   while_down(number, went);
 }
 
 /** The elements that show a datum: in the task, and below the drawings. */
 function said_of(datum) {
-  return ["#brief ul:last-of-type li", "#given li"].map(list => document.querySelectorAll(list)[datum]).filter(Boolean);
+  return ["#brief ul:last-of-type li", "#given li"]
+    .map(list => document.querySelectorAll(list)[datum])
+    .filter(Boolean);
 }
 
 /** Put the figure of a name into an element. */
@@ -82,22 +125,28 @@ let rewritten = 0; // number of changed figures when the derived data were last 
 let derived = []; // elements of data derived from figures, as drawn and as rewritten
 
 /** Make every number that can be changed draggable. */
-function make_figures() {
+export function make_figures() {
   const own = byId("datum");
-  if (own) for (const element of said_of([...own.parentElement.children].indexOf(own))) write_figure(element, byId("read").dataset.name, -1);
+  if (own)
+    for (const element of said_of([...own.parentElement.children].indexOf(own)))
+      write_figure(element, byId("read").dataset.name, -1);
   motion.figures.forEach(({ name, datum }, k) => {
-    byId("figures").append(write_figure(document.createElement("span"), name, k));
+    byId("figures").append(write_figure(html_element("span"), name, k));
     for (const element of said_of(datum)) write_figure(element, name, k);
   });
-  derived = motion.derived.flatMap(([datum, name, place, unit]) => said_of(datum).filter(one => !one.querySelector(".figure"))
-    .map(element => ({ element, drawn: [...element.childNodes], name, place, unit })));
+  derived = motion.derived.flatMap(([datum, name, place, unit]) =>
+    said_of(datum)
+      .filter(one => !one.querySelector(".figure"))
+      .map(element => ({ element, drawn: [...element.childNodes], name, place, unit })),
+  );
   tell_figures();
 }
 
 /** Write all figures with their current values. */
-function tell_figures() {
+export function tell_figures() {
   led_by.forEach((numbers, i) => {
-    const one = knob(i - 1), told = one.told();
+    const one = knob(i - 1),
+      told = one.told();
     if (one_told[i] === told) return;
     one_told[i] = told;
     for (const number of numbers) {
@@ -116,12 +165,14 @@ function tell_figures() {
 }
 
 /** A number without more decimals than it needs. */
-function plain(number) {
+export function plain(number) {
   const short = Number(number.toPrecision(5));
   return Number.isFinite(short) ? written(short, String(short).split(".")[1]?.length ?? 0) : "?";
 }
 
 /** The figures that differ from their drawn values. */
-function changed_figures() {
-  return (motion?.figures ?? []).map((one, k) => ({ ...one, k })).filter(({ k, start }) => state.figures[k] !== start);
+export function changed_figures() {
+  return (motion?.figures ?? [])
+    .map((one, k) => ({ ...one, k }))
+    .filter(({ k, start }) => state.figures[k] !== start);
 }

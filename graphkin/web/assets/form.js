@@ -1,7 +1,6 @@
 // The form of a lab: it reads answers as `graphkin grade` does, keeps them in this browser,
 // saves them as a file and opens such a file again. Nothing is sent anywhere.
 const form = document.querySelector("form.answers");
-if (!form) return;
 const told = JSON.parse(form.dataset.form);
 const NUMBER = new RegExp("^(?:" + told.number + ")");
 const MISTYPED = new RegExp(told.mistyped);
@@ -18,8 +17,12 @@ const file = form.querySelector(".file");
 
 const say = (key, values = {}) =>
   told.words[key].replace(/\{(\w+)\}/g, (gap, name) => (name in values ? values[name] : gap));
-const shown = (text) => (text.length <= SHOWN ? text : text.slice(0, SHOWN - 1) + "…");
-const clean = (text) => text.replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "").trim().normalize("NFC");
+const shown = text => (text.length <= SHOWN ? text : text.slice(0, SHOWN - 1) + "…");
+const clean = text =>
+  text
+    .replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "")
+    .trim()
+    .normalize("NFC");
 const id = () => told.id || clean(own.value);
 
 // The error of an answer, as in graphkin.classroom.grading.answer_numbers; empty if it can be read.
@@ -27,17 +30,19 @@ function wrong(text, unit, name) {
   const stripped = clean(text);
   if (!stripped || told.blanks.includes(stripped.toLowerCase())) return "";
   const found = stripped.length <= told.longest ? NUMBER.exec(stripped) : null;
-  if (!found || !names(found.groups.label, name)) return say("no_number", { text: shown(stripped) });
+  if (!found || !names(found.groups.label, name))
+    return say("no_number", { text: shown(stripped) });
   const rest = stripped.slice(found[0].length);
   const written = plainUnit(rest);
   const known = told.units[unit];
-  const factor = Object.keys(known).find((each) => each.toLowerCase() === written.toLowerCase());
+  const factor = Object.keys(known).find(each => each.toLowerCase() === written.toLowerCase());
   if (written && !factor) {
     if (MISTYPED.test(rest)) return say("no_number", { text: shown(stripped) });
     const list = Object.keys(known).join(", ");
     return say("no_unit", { unit: shown(written), list });
   }
-  const value = Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[factor] : 1);
+  const value =
+    Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[factor] : 1);
   return value < told.largest ? "" : say("too_large", { text: shown(stripped) });
 }
 
@@ -45,28 +50,35 @@ function wrong(text, unit, name) {
 function names(label, name) {
   const letter = name.split("_")[0];
   const known = told.letters[letter] || [letter.toLowerCase()];
-  return !label || known.some((begins) => label.toLowerCase().startsWith(begins));
+  return !label || known.some(begins => label.toLowerCase().startsWith(begins));
 }
 
-// The digits of a number with a decimal point, without gaps between thousands.
+/**
+ * The digits of a number with a decimal point, without gaps between thousands.
+ * @param {Record<string, string>} groups the groups of NUMBER
+ */
 function digits({ digits: all, part, parts }) {
   const bare = [part, parts].reduce((left, gap) => (gap ? left.replaceAll(gap, "") : left), all);
   return bare.replaceAll(",", ".");
 }
 
+/** @param {Record<string, string>} groups the groups of NUMBER */
 function power({ power: plain, raised }) {
-  return [...(plain || raised || "0")].map((sign) => told.raised[sign] || sign).join("");
+  return [...(plain || raised || "0")].map(sign => told.raised[sign] || sign).join("");
 }
 
 function plainUnit(text) {
-  const bare = [...text.replace(/[\s()[\]^*·]/g, "")].map((sign) => told.raised[sign] || sign).join("");
-  const plain = bare.replace(/[а-я]+\.?/g, (part) => told.russian[part.replace(".", "")] || part);
+  const bare = [...text.replace(/[\s()[\]^*·]/g, "")]
+    .map(sign => told.raised[sign] || sign)
+    .join("");
+  const plain = bare.replace(/[а-я]+\.?/g, part => told.russian[part.replace(".", "")] || part);
   return plain.replaceAll("sec", "s").replace(/([\p{L}\p{N}])[.,;]$|^;$/u, "$1");
 }
 
 // Show the error of a field next to it, and return whether there is one.
 function judge(field) {
-  const problem = field.dataset.unit === undefined ? "" : wrong(field.value, field.dataset.unit, field.name);
+  const problem =
+    field.dataset.unit === undefined ? "" : wrong(field.value, field.dataset.unit, field.name);
   return mark(field, problem);
 }
 
@@ -78,7 +90,9 @@ function mark(field, problem) {
 }
 
 function answers() {
-  return Object.fromEntries([...fields, drawing].filter(Boolean).map(({ name, value }) => [name, value]));
+  return Object.fromEntries(
+    [...fields, drawing].filter(Boolean).map(({ name, value }) => [name, value]),
+  );
 }
 
 function fill(values) {
@@ -86,7 +100,7 @@ function fill(values) {
     drawing.value = values[drawing.name];
     drawing.dispatchEvent(new Event("change"));
   }
-  for (const field of fields.filter((field) => Object.hasOwn(values, field.name))) {
+  for (const field of fields.filter(field => Object.hasOwn(values, field.name))) {
     const text = values[field.name];
     const sense = field.options && ["", "+", "-"].indexOf(text);
     if (sense > 0) field.selectedIndex = sense;
@@ -131,7 +145,7 @@ function table() {
     rows.push([field.name, cell(clean(field.value), read)]);
   }
   if (drawing?.value) rows.push([drawing.name, cell(drawing.value, true)]);
-  return rows.map((row) => row.join(told.separator) + "\r\n").join("");
+  return rows.map(row => row.join(told.separator) + "\r\n").join("");
 }
 
 function save() {
@@ -149,7 +163,7 @@ function save() {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
   keep();
   const bad = fields.filter(judge);
-  const empty = fields.filter((field) => !clean(field.value));
+  const empty = fields.filter(field => !clean(field.value));
   const count = fields.length - empty.length;
   status.textContent = say("saved", { file: name, count, all: fields.length });
   if (count && empty.length) list("empty", empty.slice(0, NAMED), empty.length > NAMED);
@@ -169,7 +183,7 @@ function list(key, some, more) {
 // The rows of a CSV text, with any of the usual separators.
 function rowsOf(text) {
   const first = text.split(/\r?\n/, 1)[0];
-  const separator = [";", ",", "\t"].find((sign) => first.includes(sign)) ?? ",";
+  const separator = [";", ",", "\t"].find(sign => first.includes(sign)) ?? ",";
   const rows = [[""]];
   let quoted = false;
   for (let i = 0; i < text.length; i++) {
@@ -181,7 +195,7 @@ function rowsOf(text) {
     else if (!quoted && sign === "\n") rows.push([""]);
     else row[row.length - 1] += sign;
   }
-  return rows.map((row) => row.map((text) => clean(text).replace(/(^|;[\s"]*)'(?=[=+\-@])/g, "$1")));
+  return rows.map(row => row.map(text => clean(text).replace(/(^|;[\s"]*)'(?=[=+\-@])/g, "$1")));
 }
 
 async function open() {
@@ -193,7 +207,7 @@ async function open() {
   const found = rows.slice(1).filter(([name, text]) => name && text !== undefined);
   const given = found.find(([name]) => name === "id")?.[1] ?? "";
   const values = Object.fromEntries(found.filter(([name]) => known.has(name)));
-  const strange = found.map(([name]) => name).filter((n) => n !== "id" && !known.has(n));
+  const strange = found.map(([name]) => name).filter(n => n !== "id" && !known.has(n));
   const count = Object.values(values).filter(Boolean).length;
   const said = { file: chosen.name, id: shown(given), count };
   const ours = HEADS.every((head, i) => rows[0][i] === head);
@@ -212,7 +226,9 @@ async function open() {
 
 // Whether opening a file would replace answers by different ones.
 function differs(values) {
-  return Object.entries(answers()).some(([name, text]) => clean(text) && name in values && values[name] !== clean(text));
+  return Object.entries(answers()).some(
+    ([name, text]) => clean(text) && name in values && values[name] !== clean(text),
+  );
 }
 
 function clear() {
@@ -225,17 +241,18 @@ function clear() {
   status.textContent = say("cleared");
 }
 
-form.addEventListener("submit", (event) => event.preventDefault());
-form.addEventListener("input", (event) => {
+form.addEventListener("submit", event => event.preventDefault());
+form.addEventListener("input", event => {
   keep();
-  const field = event.target;
+  const field = /** @type {PageElement} */ (event.target);
   if (field === own) {
     mark(own, "");
     if (id() && status.textContent === say("no_id")) status.textContent = "";
   } else if (field.getAttribute("aria-invalid")) judge(field);
 });
-form.addEventListener("change", (event) => {
-  if (fields.includes(event.target)) judge(event.target);
+form.addEventListener("change", event => {
+  const field = /** @type {PageElement} */ (event.target);
+  if (fields.includes(field)) judge(field);
 });
 form.querySelector(".save").addEventListener("click", save);
 form.querySelector(".open").addEventListener("click", () => file.click());

@@ -1,11 +1,15 @@
 // The page of a cycle: it plays the motion, lets it be moved by hand, and shows the quantities
 // asked for at each position.
-const motion = graphkinMotion;
-const data = JSON.parse(document.getElementById("run").textContent);
-const span = data.high - data.low;
+import { charts, point } from "./curves.js";
+import { significant, write_numbers_with, written } from "./numbers.js";
+
+export const motion = graphkinMotion;
+export const data = JSON.parse(document.getElementById("run").textContent);
+write_numbers_with(data.mark);
+export const span = data.high - data.low;
 const found = new Map();
 // A missing element is looked up again, since a mark may be created when first needed.
-const byId = (id) => {
+export const byId = id => {
   if (!found.has(id)) {
     const element = document.getElementById(id);
     if (!element) return null;
@@ -13,14 +17,18 @@ const byId = (id) => {
   }
   return found.get(id);
 };
-const play = byId("play"), slider = byId("at"), speed = byId("speed"), back = byId("back");
-const rows = [...document.querySelectorAll("[data-row]")];
-const NEAR = 0.8, ALONG = [0.5, 0.35, 0.65]; // mm of a name from its vector, parts of the vector next to which it may lie
+const play = byId("play"),
+  slider = byId("at"),
+  speed = byId("speed"),
+  back = byId("back");
+export const rows = [...document.querySelectorAll("[data-row]")];
+const NEAR = 0.8,
+  ALONG = [0.5, 0.35, 0.65]; // mm of a name from its vector, parts of the vector next to which it may lie
 const STILL = matchMedia("(prefers-reduced-motion:reduce)");
-const state = { x: data.start, playing: false, last: 0 };
+export const state = { x: data.start, playing: false, last: 0 };
 
-const numbers = (mark, names) => names.map((name) => Number(mark.getAttribute(name)));
-const hides = (mark) => mark.getAttribute("visibility") === "hidden";
+const numbers = (mark, names) => names.map(name => Number(mark.getAttribute(name)));
+const hides = mark => mark.getAttribute("visibility") === "hidden";
 
 // The shift of a plan from low to high into its room; a larger plan overhangs on both sides.
 function aside(low, high, pole, start, end) {
@@ -30,7 +38,9 @@ function aside(low, high, pole, start, end) {
 
 // Move the window over a plan so that the plan fits, and show a note where it does not fit.
 function seat({ figure, rect, room, pole }) {
-  const svg = byId(figure).querySelector("svg"), xs = [], ys = [];
+  const svg = byId(figure).querySelector("svg"),
+    xs = [],
+    ys = [];
   for (const mark of svg.querySelectorAll(":scope > line, :scope > circle")) {
     if (hides(mark)) continue;
     const names = mark.tagName === "line" ? ["x1", "x2", "y1", "y2"] : ["cx", "cx", "cy", "cy"];
@@ -41,12 +51,14 @@ function seat({ figure, rect, room, pole }) {
   const [x, y] = numbers(byId(pole), ["cx", "cy"]);
   const [left, right] = [Math.min(...xs, x), Math.max(...xs, x)];
   const [top, bottom] = [Math.min(...ys, y), Math.max(...ys, y)];
-  const u = aside(left, right, x, room[0], room[2]), v = aside(top, bottom, y, room[1], room[3]);
+  const u = aside(left, right, x, room[0], room[2]),
+    v = aside(top, bottom, y, room[1], room[3]);
   const window = [rect[0] - u, rect[1] - v, rect[2] - rect[0], rect[3] - rect[1]];
-  svg.setAttribute("viewBox", window.map((number) => number.toFixed(3)).join(" "));
+  svg.setAttribute("viewBox", window.map(number => number.toFixed(3)).join(" "));
   const fixed = `translate(${(-u).toFixed(3)} ${(-v).toFixed(3)})`;
   svg.querySelector(".fixed").setAttribute("transform", fixed);
-  const inside = left + u >= rect[0] && right + u <= rect[2] && top + v >= rect[1] && bottom + v <= rect[3];
+  const inside =
+    left + u >= rect[0] && right + u <= rect[2] && top + v >= rect[1] && bottom + v <= rect[3];
   byId(figure).querySelector(".beyond").hidden = inside;
 }
 
@@ -62,39 +74,61 @@ function off(here, others) {
 }
 
 // The magnification of letters in each field, so that the smallest are legible on this screen.
-const LEGIBLE = 9.1, LARGEST = 2.5; // dots of their height; largest magnification
+const LEGIBLE = 9.1,
+  LARGEST = 2.5; // dots of their height; largest magnification
 const enlarged = new Map();
 function enlarge() {
   for (const svg of document.querySelectorAll("#stage svg")) {
-    const { width, height } = svg.viewBox.baseVal, dots = Math.min(svg.clientWidth / width, svg.clientHeight / height);
-    const least = Math.min(...[...svg.querySelectorAll("[font-size]")].map((run) => Number(run.getAttribute("font-size"))));
+    const { width, height } = svg.viewBox.baseVal,
+      dots = Math.min(svg.clientWidth / width, svg.clientHeight / height);
+    const least = Math.min(
+      ...[...svg.querySelectorAll("[font-size]")].map(run => Number(run.getAttribute("font-size"))),
+    );
     const times = Math.min(Math.max(LEGIBLE / (dots * least), 1), LARGEST);
     enlarged.set(svg, Number.isFinite(times) ? times : 1);
     svg.style.setProperty("--t", enlarged.get(svg).toFixed(3));
   }
 }
-const times_of = (text) => enlarged.get(text.ownerSVGElement) ?? 1;
+const times_of = text => enlarged.get(text.ownerSVGElement) ?? 1;
 
 // Place each letter by its rule next to its point, or on another side if a letter is in the way.
 function letter(letters) {
-  const [drawn, gap, beside, leftward, upward] = data.letter, taken = [], times = letters.length ? times_of(byId(letters[0][0])) : 1, height = drawn * times;
-  const place = (id) => numbers(byId(id), ["cx", "cy"]);
+  const [drawn, gap, beside, leftward, upward] = data.letter,
+    taken = [],
+    times = letters.length ? times_of(byId(letters[0][0])) : 1,
+    height = drawn * times;
+  const place = id => numbers(byId(id), ["cx", "cy"]);
   const meets = (s, width, t) =>
     Math.abs(s[0] - t[0]) < (width + t[2]) / 2 + beside && Math.abs(s[1] - t[1]) < height + gap;
   for (const [id, point, x, y, across, away, c, s, others] of letters) {
-    const text = byId(id), here = place(point), width = across * times, far = away * times;
+    const text = byId(id),
+      here = place(point),
+      width = across * times,
+      far = away * times;
     const from = others.length ? off(here, others.map(place)) : [1, 0];
-    const [u, v] = from ? [from[0] * c - from[1] * s, from[0] * s + from[1] * c] : [leftward, upward];
-    const ways = [[u, v], [-v, u], [v, -u], [-u, -v]];
+    const [u, v] = from
+      ? [from[0] * c - from[1] * s, from[0] * s + from[1] * c]
+      : [leftward, upward];
+    const ways = [
+      [u, v],
+      [-v, u],
+      [v, -u],
+      [-u, -v],
+    ];
     const spots = ways.map(([a, b]) => [here[0] + a * (far + width / 4), here[1] + b * far, width]);
-    const free = hides(byId(point)) ? null : spots.find((spot) => !taken.some((t) => meets(spot, width, t)));
+    const free = hides(byId(point))
+      ? null
+      : spots.find(spot => !taken.some(t => meets(spot, width, t)));
     if (!free) {
       text.setAttribute("visibility", "hidden");
       continue;
     }
     taken.push(free);
     text.removeAttribute("visibility");
-    text.setAttribute("transform", `translate(${(free[0] - x).toFixed(3)} ${(free[1] - y).toFixed(3)})`);
+    text.setAttribute(
+      "transform",
+      `translate(${(free[0] - x).toFixed(3)} ${(free[1] - y).toFixed(3)})`,
+    );
   }
   return taken.map(([x, y, width]) => [x, y, width, height]);
 }
@@ -102,28 +136,52 @@ function letter(letters) {
 // Place the name of each vector next to it, clear of letters and other vectors. The name of a
 // vector asked for must be clear of letters only. A vector too short for its name gets none.
 function name(vectors, taken) {
-  const lines = vectors.map(([, line]) => byId(line)).map((mark) => (hides(mark) ? null : numbers(mark, ["x1", "y1", "x2", "y2"])));
+  const lines = vectors
+    .map(([, line]) => byId(line))
+    .map(mark => (hides(mark) ? null : numbers(mark, ["x1", "y1", "x2", "y2"])));
   vectors.forEach(([id, , x, y, across, down, asked], i) => {
-    const text = byId(id), [width, height] = [across, down].map((size) => size * times_of(text)), [x1, y1, x2, y2] = lines[i] ?? [0, 0, 0, 0], long = Math.hypot(x2 - x1, y2 - y1);
-    const [u, v] = [(x2 - x1) / long, (y2 - y1) / long], far = NEAR + (Math.abs(v) * width + Math.abs(u) * height) / 2;
-    const spots = ALONG.flatMap((part) => [1, -1].map((side) => [
-      x1 + part * (x2 - x1) - side * v * far, y1 + part * (y2 - y1) + side * u * far, width, height,
-    ]));
-    const apart = (spot) => taken.every(([c, d, w, h]) =>
-      Math.abs(spot[0] - c) > (width + w) / 2 + NEAR || Math.abs(spot[1] - d) > (height + h) / 2 + NEAR);
+    const text = byId(id),
+      [width, height] = [across, down].map(size => size * times_of(text)),
+      [x1, y1, x2, y2] = lines[i] ?? [0, 0, 0, 0],
+      long = Math.hypot(x2 - x1, y2 - y1);
+    const [u, v] = [(x2 - x1) / long, (y2 - y1) / long],
+      far = NEAR + (Math.abs(v) * width + Math.abs(u) * height) / 2;
+    const spots = ALONG.flatMap(part =>
+      [1, -1].map(side => [
+        x1 + part * (x2 - x1) - side * v * far,
+        y1 + part * (y2 - y1) + side * u * far,
+        width,
+        height,
+      ]),
+    );
+    const apart = spot =>
+      taken.every(
+        ([c, d, w, h]) =>
+          Math.abs(spot[0] - c) > (width + w) / 2 + NEAR ||
+          Math.abs(spot[1] - d) > (height + h) / 2 + NEAR,
+      );
     const free = long > 1.2 * width ? spots.filter(apart) : [];
-    const clear = free.find((spot) => !lines.some((line, k) => k !== i && line && cuts(line, spot)));
+    const clear = free.find(spot => !lines.some((line, k) => k !== i && line && cuts(line, spot)));
     const at = clear ?? (asked ? free[0] : null);
     text.toggleAttribute("data-off", !at);
     if (!at) return;
     taken.push(at);
-    text.setAttribute("transform", `translate(${(at[0] - x).toFixed(3)} ${(at[1] - y).toFixed(3)})`);
+    text.setAttribute(
+      "transform",
+      `translate(${(at[0] - x).toFixed(3)} ${(at[1] - y).toFixed(3)})`,
+    );
   });
 }
 
-// Whether a line crosses a box around a spot.
+/**
+ * Whether a line crosses a box around a spot.
+ * @param {number[]} line
+ * @param {Box} spot
+ */
 function cuts([x1, y1, x2, y2], [x, y, width, height]) {
-  const [a, b] = [width / 2, height / 2], [u, v] = [(x2 - x1) / 2, (y2 - y1) / 2], [p, q] = [x - x1 - u, y - y1 - v];
+  const [a, b] = [width / 2, height / 2],
+    [u, v] = [(x2 - x1) / 2, (y2 - y1) / 2],
+    [p, q] = [x - x1 - u, y - y1 - v];
   const within = Math.abs(p) < a + Math.abs(u) && Math.abs(q) < b + Math.abs(v);
   return within && Math.abs(p * v - q * u) < a * Math.abs(v) + b * Math.abs(u);
 }
@@ -161,7 +219,8 @@ function tell(row, value) {
 function go(seconds) {
   const way = data.sense * (seconds / data.seconds) * span * Number(speed.value);
   const beyond = state.x + way < data.low || state.x + way > data.high;
-  if (beyond && data.back && !STILL.matches) byId("stage").animate([{ opacity: 0.15 }, { opacity: 1 }], 600);
+  if (beyond && data.back && !STILL.matches)
+    byId("stage").animate([{ opacity: 0.15 }, { opacity: 1 }], 600);
   show(data.low + ((((state.x + way - data.low) % span) + span) % span));
 }
 
@@ -192,14 +251,14 @@ function named(what) {
 }
 
 const toggle = () => (state.playing ? pause() : start());
-const rest = (x) => {
+export const rest = x => {
   pause();
   show(x);
 };
 
-document.addEventListener("keydown", (event) => {
+document.addEventListener("keydown", event => {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
-  const at = event.target;
+  const at = /** @type {Element} */ (event.target);
   const step = span / 100;
   const act = {
     " ": at.matches("button,select") ? null : toggle,
@@ -213,12 +272,13 @@ document.addEventListener("keydown", (event) => {
 });
 // The dead points and turning points below the slider; each jumps to its place, or as near as shown.
 for (const [at, words] of data.notable) {
-  const turned = data.degrees && !data.back ? data.low + ((((at - data.low) % 360) + 360) % 360) : at;
+  const turned =
+    data.degrees && !data.back ? data.low + ((((at - data.low) % 360) + 360) % 360) : at;
   const place = Math.min(Math.max(turned, data.low), data.high);
   const tick = document.createElement("button");
   tick.title = `${written(turned, span > 50 ? 1 : 2)}${data.unit}: ${words}`;
   tick.setAttribute("aria-label", tick.title);
-  tick.style.setProperty("--part", (place - data.low) / span);
+  tick.style.setProperty("--part", String((place - data.low) / span));
   tick.addEventListener("click", () => rest(place));
   byId("notable").append(tick);
 }

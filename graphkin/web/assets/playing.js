@@ -1,4 +1,9 @@
 // Playing the steps.
+import { SWEEP } from "./beginning.js";
+import { byId, last, motion, play, state } from "./page.js";
+import { show } from "./stepping.js";
+import { rest_from_travel } from "./travel.js";
+
 let timer = 0;
 
 function start() {
@@ -9,14 +14,14 @@ function start() {
   wait();
 }
 
-function pause() {
+export function pause() {
   clearTimeout(timer);
   timer = 0;
   play.removeAttribute("data-on");
   called(play, play.dataset.play);
 }
 
-function toggle() {
+export function toggle() {
   if (timer) pause();
   else start();
 }
@@ -25,15 +30,18 @@ function toggle() {
 function wait() {
   const why = byId("because").open ? byId("reason").textContent.length : 0;
   const letters = byId("sentence").textContent.length + (state.step ? why : 0);
-  timer = setTimeout(() => {
-    show(state.step + 1);
-    if (state.step === last) pause();
-    else wait();
-  }, Math.max(Math.min(1500 + 45 * letters, 25000), state.step ? 0 : SWEEP));
+  timer = setTimeout(
+    () => {
+      show(state.step + 1);
+      if (state.step === last) pause();
+      else wait();
+    },
+    Math.max(Math.min(1500 + 45 * letters, 25000), state.step ? 0 : SWEEP),
+  );
 }
 
 /** Set the label of a button. */
-function called(button, words) {
+export function called(button, words) {
   button.title = words;
   button.setAttribute("aria-label", words);
 }

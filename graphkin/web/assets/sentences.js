@@ -1,16 +1,34 @@
 // The sentences: each is a link in the list, and the current one is shown above the keys.
-const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
-  const link = document.createElement("a");
+import { html_element } from "./elements.js";
+import { point_at } from "./aiming.js";
+import { tint } from "./halos.js";
+import { rates_read } from "./highlights.js";
+import { byId, copies, data, last, moved, slider, state } from "./page.js";
+import { fit, told_by_keys } from "./room.js";
+import { sheets } from "./sheets.js";
+import { size_read } from "./values.js";
+
+export const places = [...document.querySelectorAll("#steps li")].map((item, i) => {
+  const link = html_element("a");
   link.href = `#step=${i + 1}`;
-  link.dataset.number = i + 1;
+  link.dataset.number = String(i + 1);
   link.append(...item.childNodes);
   item.append(link);
-  return { link, say: link.querySelector(".say"), why: link.querySelector(".why"), aside: link.querySelector(".aside"), crossings: [...link.querySelectorAll(".crossing")] };
+  return {
+    link,
+    say: link.querySelector(".say"),
+    why: link.querySelector(".why"),
+    aside: link.querySelector(".aside"),
+    crossings: [...link.querySelectorAll(".crossing")],
+    drawn: /** @type {Node[] | null} */ (null), // the sentence as it was written
+  };
 });
 
 /** Show the sentence of the step and mark it in the list; at the beginning, show the task. */
-function say() {
-  const count = state.step ? data.count.replace("{number}", state.step).replace("{all}", last) : data.task[0];
+export function say() {
+  const count = state.step
+    ? data.count.replace("{number}", state.step).replace("{all}", last)
+    : data.task[0];
   byId("count").textContent = count;
   slider.setAttribute("aria-valuetext", count);
   tell(byId("told"), state.step);
@@ -26,24 +44,34 @@ function say() {
   });
 }
 
-const stops = [...byId("stops").children], stop_list = byId("stops").appendChild(document.createElement("select")); // buttons, or a list where there is no room for them
-stop_list.append(...stops.map(({ lastChild, dataset }) => new Option(lastChild.textContent.trim(), dataset.stop)));
+export const stops = [...byId("stops").children],
+  stop_list = byId("stops").appendChild(html_element("select")); // buttons, or a list where there is no room for them
+stop_list.append(
+  ...stops.map(({ lastChild, dataset }) => new Option(lastChild.textContent.trim(), dataset.stop)),
+);
 stop_list.setAttribute("aria-label", byId("stops").getAttribute("aria-label"));
 
 /** Scroll the list to the sentence of the step. */
-function list_in_sight() {
-  const list = byId("steps"), { offsetTop, offsetHeight } = places[Math.max(state.step - 1, 0)].link;
-  if (list.scrollHeight > list.clientHeight + 4) list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
+export function list_in_sight() {
+  const list = byId("steps"),
+    { offsetTop, offsetHeight } = places[Math.max(state.step - 1, 0)].link;
+  if (list.scrollHeight > list.clientHeight + 4)
+    list.scrollTop = offsetTop - list.offsetTop - (list.clientHeight - offsetHeight) / 2;
 }
 
 let by_hand = false; // whether the reader opened or closed the reason
+export const opened_by_hand = () => {
+  by_hand = true;
+};
 
 /** Scroll the reason into view after the reader has opened it. */
-function reason_in_sight() {
+export function reason_in_sight() {
   fit();
-  const told = byId("told"), reason = byId("reason");
+  const told = byId("told"),
+    reason = byId("reason");
   const hidden = reason.offsetTop + reason.offsetHeight - told.offsetTop - told.clientHeight;
-  if (by_hand && byId("because").open && hidden > 0) told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
+  if (by_hand && byId("because").open && hidden > 0)
+    told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
   by_hand = false;
 }
 
@@ -54,7 +82,7 @@ function current(element, is, word) {
 }
 
 /** Write the sentence of a step, its reasons, its note, and its flattest crossing. */
-function tell(told, step) {
+export function tell(told, step) {
   const { say: words, why, aside, crossings } = places[step - 1] ?? { crossings: [] };
   told.querySelector("#sentence").replaceChildren(...(words ? copies(words) : [data.task[1]]));
   told.querySelector("#reason").replaceChildren(...lines(why));
@@ -65,28 +93,35 @@ function tell(told, step) {
 }
 
 /** Write the rates at the driver's position: for the current step, and after a movement in the list. */
-function tell_rates() {
+export function tell_rates() {
   for (const step of state.going ? [state.step] : Object.keys(data.rates)) tell_rates_of(step);
   if (rates_read().length) byId("sentence").replaceChildren(...copies(places[state.step - 1].say));
 }
 
 /** Write the rates into the sentence of a step. */
 function tell_rates_of(step) {
-  const place = places[step - 1], read = data.rates[step];
+  const place = places[step - 1],
+    read = data.rates[step];
   if (!read) return;
   place.drawn ??= copies(place.say);
-  place.say.replaceChildren(...moved() ? read.flatMap(({ row, told: name }, i) => {
-    const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`), start = document.createElement("span");
-    start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped by its maker
-    return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
-  }) : place.drawn);
+  place.say.replaceChildren(
+    ...(moved()
+      ? read.flatMap(({ row, told: name }, i) => {
+          const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`),
+            start = html_element("span");
+          start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped by its maker
+          return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
+        })
+      : place.drawn),
+  );
 }
 
 /** The reasons as lines in the colours of their strokes; buttons where a stroke can be highlighted. */
 function lines(why) {
   return [...(why?.children ?? [])].map(reason => {
-    const step = reason.dataset.for, drawn = sheets.some(({ of }) => of.has(step));
-    const line = document.createElement(drawn ? "button" : "p");
+    const step = reason.dataset.for,
+      drawn = sheets.some(({ of }) => of.has(step));
+    const line = html_element(drawn ? "button" : "p");
     line.append(...copies(reason));
     line.className = drawn ? `line ${tint(step)}` : "line";
     if (drawn) line.dataset.for = step;
@@ -95,12 +130,12 @@ function lines(why) {
 }
 
 /** Highlight only the stroke of the reason pointed at. */
-function light(event) {
+export function light(event) {
   point_at(event.target.closest("[data-for]")?.dataset.for ?? null);
 }
 
 /** Write the flattest of some crossings. */
-function warn(told, crossings) {
+export function warn(told, crossings) {
   const factor = line => Number(line.querySelector(".factor").textContent.replace(data.mark, "."));
   const worst = crossings.reduce((a, b) => (a && factor(a) >= factor(b) ? a : b), null);
   told.querySelector("#crossing").replaceChildren(...(worst ? copies(worst) : []));

@@ -1,19 +1,33 @@
 // A step: the drawing up to its sentence.
+import { remember } from "./address.js";
+import { begin } from "./beginning.js";
+import { follow_pins } from "./grab.js";
+import { byId, last, motion, slider, state } from "./page.js";
+import { pause } from "./playing.js";
+import { say } from "./sentences.js";
+import { here, sheets } from "./sheets.js";
+import { trace } from "./tracing.js";
+import { found, read, read_out } from "./values.js";
+import { lift, write } from "./writing.js";
+import { put } from "./zoom.js";
 
 /** Show a step. */
-function show(step) {
+export function show(step) {
   const before = state.step;
   state.step = Math.min(Math.max(Math.round(step) || 0, 0), last);
   state.over = null;
-  sheets.forEach(({ element }, i) => { element.hidden = i !== here(); });
+  sheets.forEach(({ element }, i) => {
+    element.hidden = i !== here();
+  });
   for (const mark of sheets[here()].marks) {
     const at = Number(mark.dataset.at);
     mark.classList.toggle("later", at > state.step);
     mark.classList.toggle("now", at > 0 && at === state.step);
   }
-  for (const part of sheets[here()].parts) part.classList.toggle("later", Number(part.dataset.from) > state.step);
+  for (const part of sheets[here()].parts)
+    part.classList.toggle("later", Number(part.dataset.from) > state.step);
   for (const row of found) row.classList.toggle("unknown", Number(row.dataset.found) > state.step);
-  slider.value = state.step;
+  slider.value = String(state.step);
   byId("previous").disabled = state.step === 0;
   byId("next").disabled = state.step === last;
   begin();
@@ -31,7 +45,7 @@ function show(step) {
 }
 
 /** Show a step that the reader has chosen, and stop playing. */
-function go(step) {
+export function go(step) {
   pause();
   show(step);
 }

@@ -1,10 +1,17 @@
 // Playing the motion: the driver runs in its sense, round and round or from end to end.
-const TURN = 9000, PASS = 6000, STAY = 600; // milliseconds of a turn, of a range, and of the stay at its end
-const traveller = motion && byId("travel");
-let travelling = 0, lately = 0;
+import { move } from "./driver.js";
+import { byId, motion, state } from "./page.js";
+import { called, pause } from "./playing.js";
+
+const TURN = 9000,
+  PASS = 6000,
+  STAY = 600; // milliseconds of a turn, of a range, and of the stay at its end
+export const traveller = motion && byId("travel");
+let travelling = 0,
+  lately = 0;
 
 /** Play the motion, or stop it. */
-function travel() {
+export function travel() {
   if (travelling) return rest_from_travel();
   pause();
   lately = performance.now();
@@ -13,7 +20,7 @@ function travel() {
   called(traveller, traveller.dataset.pause);
 }
 
-function rest_from_travel() {
+export function rest_from_travel() {
   cancelAnimationFrame(travelling);
   travelling = 0;
   traveller.removeAttribute("data-on");
@@ -22,8 +29,10 @@ function rest_from_travel() {
 
 /** Advance by the elapsed time; a range starts again after its end. */
 function go_on(now) {
-  const { low, high, whole, sense } = motion, time = Math.min(now - lately, 100);
-  const end = sense > 0 ? high : low, next = state.x + sense * (high - low) * time / (whole ? TURN : PASS);
+  const { low, high, whole, sense } = motion,
+    time = Math.min(now - lately, 100);
+  const end = sense > 0 ? high : low,
+    next = state.x + (sense * (high - low) * time) / (whole ? TURN : PASS);
   travelling = requestAnimationFrame(go_on);
   if (whole || (end - state.x) * sense > 1e-9) {
     lately = now;

@@ -1,21 +1,41 @@
 // Keys and pointers while something is drawn: they belong to the drawing before all else.
+import { turn } from "#turn";
+import { hits_at, point_in_turn, press, show_aim, spot_at } from "./pointing.js";
+import { key_in_turn } from "./typing.js";
+
 /** During a turn, keep keys and pointers on the drawing from other handlers. */
-function in_turn(event) {
+export function in_turn(event) {
   if (!turn) return;
-  const typed = event.type === "keydown", drawing = event.target.closest?.(".sheet");
-  if (typed) {
-    const zooms = event.target.closest?.("svg") && ["+", "=", "-", "0"].includes(event.key);
-    if (event.key === "F5" || zooms) return;
-    event.stopPropagation();
-    return key_in_turn(event);
-  }
-  if (event.type.startsWith("pointer") && event.type !== "pointerover") {
-    if ((drawing || press) && point_in_turn(event)) event.stopPropagation();
-    if (!drawing && !press && turn.aim && event.type === "pointermove") show_aim(null);
-    return;
-  }
-  const fits_all = event.type === "dblclick" && !hits_at(spot_at(event)).length; // nothing is meant but the whole field
-  if (drawing && !fits_all) event.stopPropagation();
+  if (event.type === "keydown") typed_in_turn(event);
+  else if (event.type.startsWith("pointer") && event.type !== "pointerover") pointed_in_turn(event);
+  else if (is_on_drawing(event) && !fits_all(event)) event.stopPropagation();
 }
 
-const EVENTS = ["keydown", "click", "dblclick", "pointerover", "pointerdown", "pointermove", "pointerup", "pointercancel"];
+const is_on_drawing = ({ target }) => Boolean(target.closest?.(".sheet"));
+
+/** Whether an event means nothing but the whole field. */
+const fits_all = event => event.type === "dblclick" && !hits_at(spot_at(event)).length;
+
+function typed_in_turn(event) {
+  const zooms = event.target.closest?.("svg") && ["+", "=", "-", "0"].includes(event.key);
+  if (event.key === "F5" || zooms) return;
+  event.stopPropagation();
+  key_in_turn(event);
+}
+
+function pointed_in_turn(event) {
+  const drawing = is_on_drawing(event);
+  if ((drawing || press) && point_in_turn(event)) event.stopPropagation();
+  if (!drawing && !press && turn.aim && event.type === "pointermove") show_aim(null);
+}
+
+export const EVENTS = [
+  "keydown",
+  "click",
+  "dblclick",
+  "pointerover",
+  "pointerdown",
+  "pointermove",
+  "pointerup",
+  "pointercancel",
+];

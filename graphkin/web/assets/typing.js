@@ -1,43 +1,87 @@
 // A move typed as it is written: "⊥ AB a", or with an ASCII word "perp AB a". What would come is shown before Enter.
-const TYPED = $TYPED; // the signs and words of each action
-const PLAIN = { "°": "", "′": "'", "″": "''", "ν": "n", "τ": "t", "ω": "w", "ε": "e" };
-const typed_form = text => text.replace(/[°′″ντωε]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
+import { byId } from "#page";
+import {
+  action_name,
+  is_letter,
+  moves,
+  picks,
+  results_of,
+  tell_turn,
+  turn,
+  turning,
+  TYPED,
+  typed_numbers,
+  worded,
+} from "#turn";
+import { draw_move, settle_which } from "./choosing.js";
+import { redo, undo } from "./history.js";
+import { fits, forget_inputs, names_of, plain_words, show_picks, slots_of } from "./picking.js";
+import { is_curve, show_aim } from "./pointing.js";
+
+const PLAIN = { "°": "", "′": "'", "″": "''", ν: "n", τ: "t", ω: "w", ε: "e" };
+export const typed_form = text =>
+  text.replace(/[°′″ντωε]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
 
 /** The ways in which a pick is written: its whole name, without words before it, or by the bar or guide of a line. */
 function forms_of(key) {
-  const { name, kind } = picks[key], made = moves[key]?.inputs ?? (key.startsWith("own") ? turn.lines[Number(key.slice(3)) - 1][1] : []);
-  const whole = typed_form(plain_words(name)), short = ["locus", "circle"].includes(kind) && made[1] ? typed_form(plain_words(picks[made[1]].name)) : whole;
-  return [...new Set([whole, short, short.split(" ").at(-1)].map(form => form.replaceAll(" ", "")))].filter(Boolean);
+  const { name, kind } = picks[key],
+    made =
+      moves[key]?.inputs ?? (key.startsWith("own") ? turn.lines[Number(key.slice(3)) - 1][1] : []);
+  const whole = typed_form(plain_words(name)),
+    short =
+      ["locus", "circle"].includes(kind) && made[1]
+        ? typed_form(plain_words(picks[made[1]].name))
+        : whole;
+  return [
+    ...new Set([whole, short, short.split(" ").at(-1)].map(form => form.replaceAll(" ", ""))),
+  ].filter(Boolean);
 }
 
 /** The action that a typed line begins with, and the rest of the line. */
 function split_action(text) {
   for (const [action, signs] of Object.entries(TYPED)) {
     if (!(action in turning.palette)) continue;
-    const sign = signs.find(one => text.startsWith(one) && (!/\w$/.test(one) || !/^\w/.test(text.slice(one.length))));
+    const sign = signs.find(
+      one => text.startsWith(one) && (!/\w$/.test(one) || !/^\w/.test(text.slice(one.length))),
+    );
     if (sign) return [action, text.slice(sign.length)];
   }
   return [null, text];
 }
 
-/** All that a typed text may name for an action: complete inputs, those that are drawn last first. */
-function readings(action, text, in_order) {
-  const found = [], slots = slots_of(action);
-  const keys = Object.keys(picks).filter(key => slots.some((_, i) => fits(action, key, i))).reverse();
-  const named = keys.flatMap(key => forms_of(key).map(form => [key, form])).sort((a, b) => b[1].length - a[1].length);
+/**
+ * All that a typed text may name for an action: complete inputs, those that are drawn last first.
+ * @param {string} action
+ * @param {string} text
+ * @param {boolean} in_order whether the inputs are named in the order of their words
+ * @param {boolean} also_empty whether inputs count from which nothing can be drawn
+ */
+function readings(action, text, in_order, also_empty) {
+  const found = [],
+    slots = slots_of(action);
+  const keys = Object.keys(picks)
+    .filter(key => slots.some((_, i) => fits(action, key, i)))
+    .reverse();
+  const named = keys
+    .flatMap(key => forms_of(key).map(form => [key, form]))
+    .sort((a, b) => b[1].length - a[1].length);
   const read = (rest, inputs) => {
     const left = rest.trimStart();
     if (found.length > 20) return;
     if (!left) return void (slots.every((_, i) => inputs[i]) && found.push(inputs));
     for (const [key, form] of [...named, ...typed_numbers(left)]) {
-      const end = written_length(left, form), free = slots.map((_, i) => i).filter(i => !inputs[i]);
+      const end = written_length(left, form),
+        free = slots.map((_, i) => i).filter(i => !inputs[i]);
       if (!end) continue;
       const slot = (in_order ? free.slice(0, 1) : free).find(i => fits(action, key, i));
       if (slot !== undefined) read(left.slice(end), Object.assign([...inputs], { [slot]: key }));
     }
   };
   read(text, []);
-  return found.filter(inputs => results_of(action, inputs).length && (action !== "cut" || picks[inputs[0]].plane === picks[inputs[1]].plane));
+  const is_drawn = inputs =>
+    results_of(action, inputs).length > 0 &&
+    (action !== "cut" || picks[inputs[0]].plane === picks[inputs[1]].plane);
+  return [...found.filter(is_drawn), ...found.filter(inputs => also_empty && !is_drawn(inputs))];
 }
 
 /** How much of a text a form of a name takes, blanks left out; 0 where the text begins otherwise. */
@@ -53,48 +97,77 @@ function written_length(text, form) {
 
 /** The lines or arcs drawn last of which no point is found yet. */
 function open_pair() {
-  const drawn = [...turn.log.map(({ step }) => String(step)), ...Object.keys(picks).filter(key => key.startsWith("own"))].filter(key => picks[key] && is_curve(key));
-  const cut_already = turn.lines.filter(([action]) => action === "cut").flatMap(([, given]) => given);
-  const used = new Set([...cut_already, ...[...turn.done].filter(step => moves[step]?.action === "cut").flatMap(step => moves[step].inputs)]);
-  const free = drawn.filter(key => !used.has(key)).reverse(), last = free.find(key => free.some(other => other !== key && picks[other].plane === picks[key].plane));
+  const drawn = [
+    ...turn.log.map(({ step }) => String(step)),
+    ...Object.keys(picks).filter(key => key.startsWith("own")),
+  ].filter(key => picks[key] && is_curve(key));
+  const cut_already = turn.lines
+    .filter(([action]) => action === "cut")
+    .flatMap(([, given]) => given);
+  const used = new Set([
+    ...cut_already,
+    ...[...turn.done]
+      .filter(step => moves[step]?.action === "cut")
+      .flatMap(step => moves[step].inputs),
+  ]);
+  const free = drawn.filter(key => !used.has(key)).reverse(),
+    last = free.find(key =>
+      free.some(other => other !== key && picks[other].plane === picks[key].plane),
+    );
   const other = free.find(key => key !== last && picks[key].plane === picks[last]?.plane);
   return other ? [other, last] : null;
 }
 
-/** The move that a typed line means: an action with its inputs, or several actions that would fit; null for none. */
-function typed_way(line) {
+/**
+ * The moves that a typed line may mean: one that is meant, several that would fit, or none.
+ * @param {string} line
+ * @returns {Way[]}
+ */
+function typed_ways(line) {
   const [action, rest] = split_action(typed_form(line).trim());
   if (action === "cut" && !rest.trim()) {
     const pair = open_pair();
-    return pair && { action, inputs: pair };
+    return pair ? [{ action, inputs: pair }] : [];
   }
-  if (!rest.trim()) return null;
-  const of = (one, in_order) => readings(one, rest, in_order).slice(0, 1).map(inputs => ({ action: one, inputs }));
-  if (action) return of(action, false)[0] ?? null;
-  const own = in_order => turn.tool ? of(turn.tool, in_order) : [];
-  const all = Object.keys(turning.palette).flatMap(one => of(one, true)), least = Math.min(...all.map(({ inputs }) => inputs.length));
-  const others = all.filter(({ inputs }) => inputs.length === least), alone = others.length === 1 ? others : []; // long names before many
+  if (!rest.trim()) return [];
+  const of = (one, in_order) =>
+    readings(one, rest, in_order, action !== null)
+      .slice(0, 1)
+      .map(inputs => ({ action: one, inputs }));
+  if (action) return of(action, false);
+  const own = in_order => (turn.tool ? of(turn.tool, in_order) : []);
+  const all = Object.keys(turning.palette).flatMap(one => of(one, true)),
+    least = Math.min(...all.map(({ inputs }) => inputs.length));
+  const others = all.filter(({ inputs }) => inputs.length === least),
+    alone = others.length === 1 ? others : []; // long names before many
   const [way] = [...own(true), ...alone, ...own(false)]; // what is written in the order of its words goes first
-  return way ?? (others.length ? { several: others } : null);
+  return way ? [way] : others;
 }
 
 /** Show on the drawing and in words what a typed line would draw. */
-function show_typed() {
-  const way = typed_way(byId("turn-typed").value), [first] = way?.several ?? [way];
-  show_aim(first ? { ways: [first] } : null);
-  byId("turn-would").innerHTML = first ? (way.several ?? [way]).map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`).join(" · ") : "";
+export function show_typed() {
+  const ways = typed_ways(byId("turn-typed").value);
+  show_aim(ways.length ? { ways: ways.slice(0, 1) } : null);
+  const told = ways.map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`);
+  byId("turn-would").innerHTML = told.join(" · ");
 }
 
 /** Make the move that is typed; the action stays chosen for lines typed without one. */
-function draw_typed() {
-  const { value } = byId("turn-typed"), way = typed_way(value);
+export function draw_typed() {
+  const { value } = byId("turn-typed"),
+    ways = typed_ways(value),
+    [way] = ways;
   if (!value.trim() || is_letter(value)) return;
   if (!way) {
     byId("turn-typed").select();
     return tell_turn(worded("unread", { text: escaped(value) }));
   }
-  if (way.several) return tell_turn(worded("either", { list: names_of(way.several[0].inputs), actions: way.several.map(each => action_name(each.action)).join(" · ") }));
-  if (split_action(typed_form(value).trim())[0] && STICKS.includes(way.action)) turn.tool = way.action;
+  if (ways.length > 1) {
+    const actions = ways.map(each => action_name(each.action)).join(" · ");
+    return tell_turn(worded("either", { list: names_of(way.inputs), actions }));
+  }
+  if (split_action(typed_form(value).trim())[0] && STICKS.includes(way.action))
+    turn.tool = way.action;
   forget_typed();
   turn.asked = turn.wrong_line = null;
   turn.taken = way.inputs;
@@ -106,23 +179,35 @@ function draw_typed() {
 const STICKS = ["perpendicular", "parallel", "triangle", "compass"]; // of which several are drawn one after the other
 const escaped = text => text.replace(/[&<>"]/g, sign => `&#${sign.charCodeAt(0)};`);
 
-function forget_typed() {
+export function forget_typed() {
   byId("turn-typed").value = "";
   byId("turn-would").textContent = "";
 }
 
 /** Keys during a turn that are no text: undo and redo, the choice of two, Escape; letters go to the typed line. */
-function key_in_turn(event) {
-  const { key, target } = event, field = byId("turn-typed"), in_field = target === field, own = event.ctrlKey || event.metaKey;
-  const time = own && !event.altKey && !(in_field && field.value) ? { z: event.shiftKey ? redo : undo, y: redo }[key.toLowerCase()] : null;
-  const choice = turn.asked && !own && !(in_field && field.value) && turn.asked[Number(key) - 1] ? () => settle_which(Number(key) - 1) : null;
-  const act = time ?? choice ?? (key === "Escape" ? leave_taken : null);
+export function key_in_turn(event) {
+  const { key, target } = event,
+    field = byId("turn-typed");
+  const with_command = event.ctrlKey || event.metaKey,
+    writing = target === field && field.value !== "";
+  const act = act_of_key(event, with_command, writing) ?? (key === "Escape" ? leave_taken : null);
   if (act) {
     event.preventDefault();
     act();
-  } else if (!own && !event.altKey && key.length === 1 && key !== " " && !target.closest("input,select,textarea,svg")) {
+    return;
+  }
+  const is_letter_key = key.length === 1 && key !== " " && !with_command && !event.altKey;
+  if (is_letter_key && !target.closest("input,select,textarea,svg")) {
     field.focus({ preventScroll: true }); // the letter is written there
   }
+}
+
+/** What a key does while nothing is being written: undo and redo, or the choice of a result. */
+function act_of_key({ key, shiftKey, altKey }, with_command, writing) {
+  if (writing) return null;
+  if (with_command)
+    return altKey ? null : { z: shiftKey ? redo : undo, y: redo }[key.toLowerCase()];
+  return turn.asked?.[Number(key) - 1] ? () => settle_which(Number(key) - 1) : null;
 }
 
 function leave_taken() {

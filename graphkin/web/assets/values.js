@@ -1,4 +1,10 @@
 // Values and margins of a position: in the tables, in the sentences, and in the line of results.
+import { html_element } from "./elements.js";
+import { rates_read } from "./highlights.js";
+import { significant, written } from "./numbers.js";
+import { byId, copies, data, motion, state } from "./page.js";
+import { places } from "./sentences.js";
+import { here, sheets } from "./sheets.js";
 
 /** The column of the size in each kind of table. */
 const PLACE = { vectors: 3, turns: 1, slides: 1 };
@@ -22,21 +28,33 @@ const TOLD = {
 
 const tables = [...document.querySelectorAll("#results table")].map(table => {
   const rows = [...table.querySelectorAll("[data-row]")];
-  return { kind: table.className, rows: rows.map(row => ({ row, cells: [...row.querySelectorAll("td")], asked: "asked" in row.dataset })) };
+  return {
+    kind: table.className,
+    rows: rows.map(row => ({
+      row,
+      cells: [...row.querySelectorAll("td")],
+      asked: "asked" in row.dataset,
+    })),
+  };
 });
 
 /** Write the values of this position; during motion only those asked for or read off by the step. */
-function read() {
-  const values = motion.values(state.x), going = state.going, told = new Set(rates_read().map(({ row }) => row));
+export function read() {
+  const values = motion.values(state.x),
+    going = state.going,
+    told = new Set(rates_read().map(({ row }) => row));
   for (const { kind, rows } of tables) {
     const known = rows.filter(({ row }) => row.dataset.row in values);
     const sizes = known.map(({ row }) => Math.abs(values[row.dataset.row]));
     const noise = 1e-9 * Math.max(...sizes);
     known.forEach(({ row, cells, asked }, i) => {
-      if (asked || !going || told.has(row.dataset.row)) TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
+      if (asked || !going || told.has(row.dataset.row))
+        TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
     });
   }
-  read_margins(going ? places[state.step - 1].crossings : document.querySelectorAll("#steps .crossing"));
+  read_margins(
+    going ? places[state.step - 1].crossings : document.querySelectorAll("#steps .crossing"),
+  );
   read_out();
 }
 
@@ -47,34 +65,37 @@ function read_margins(lines) {
     const sine = margins[line.dataset.of];
     if (sine === undefined) continue;
     const angle = Math.asin(Math.min(Math.max(sine, 0), 1));
-    line.querySelector(".angle").textContent = written(angle * 180 / Math.PI, 0);
-    line.querySelector(".factor").textContent = angle ? significant(1 / Math.sin(angle / 2), 2) : "∞";
+    line.querySelector(".angle").textContent = written((angle * 180) / Math.PI, 0);
+    line.querySelector(".factor").textContent = angle
+      ? significant(1 / Math.sin(angle / 2), 2)
+      : "∞";
   }
 }
 
 /** Show below the slider the quantities that the current sheet asks for. */
-function read_out() {
+export function read_out() {
   byId("values").replaceChildren(...all_asked(sheets[here()].element.dataset.kind));
 }
 
-const found = [...document.querySelectorAll("#results [data-found]")];
+export const found = [...document.querySelectorAll("#results [data-found]")];
 
 /** The quantities asked for on a sheet, one line each, with their values where they are known. */
-function all_asked(kind, told) {
+export function all_asked(kind, told) {
   const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
   return [...rows].map(row => asked([...row.cells], told ?? !row.matches(".unknown")));
 }
 
 /** A quantity in one line: its name, then size and unit, or a question mark. */
-function asked(cells, told) {
-  const value = document.createElement("span");
-  value.append(...copies(cells[0]), " = ", ...told ? size_read(cells) : ["?"]);
+export function asked(cells, told) {
+  const value = html_element("span");
+  value.append(...copies(cells[0]), " = ", ...(told ? size_read(cells) : ["?"]));
   return value;
 }
 
 /** The size, unit and sense of a row. */
-function size_read(cells) {
-  const table = cells[0].closest("table"), place = PLACE[table.className];
+export function size_read(cells) {
+  const table = cells[0].closest("table"),
+    place = PLACE[table.className];
   const found = [...copies(cells[place]), " ", ...copies(table.tHead.rows[0].cells[place])];
   return place === 1 && cells[2].textContent ? [...found, ", ", ...copies(cells[2])] : found;
 }

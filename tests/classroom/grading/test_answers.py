@@ -150,6 +150,18 @@ def test_a_table_with_semicolons_a_mark_and_strange_columns(read):
     assert [(each.file, each.name) for each in found.strangers] == [("a.csv", "comment")]
 
 
+def test_a_unit_in_the_head_is_that_of_bare_numbers(read):
+    """A cell's own unit has the last word; a unit that is not known waits in each cell."""
+    found = read(
+        "id,v_D_mm [cm],v_D (mm/s),omega_3_sense [+/-]\n001,1.975,3800,+1\n002,2 mm,4 m/s,\n"
+    )
+    assert found.of["001"]["v_D_mm"].value == pytest.approx(19.75)
+    assert found.of["001"]["v_D"].value == pytest.approx(3.8)
+    assert found.of["001"]["omega_3_sense"].value == 1
+    assert (found.of["002"]["v_D_mm"].value, found.of["002"]["v_D"].value) == (2, 4)
+    assert [each.problem for each in read("id,v_D [kg]\n001,3.8\n").unread] == ["unit"]
+
+
 def test_a_student_may_sign_with_the_code_on_the_sheets(read):
     text, coded = "id,v_D\nQWERTYUIOP,3.8\n002,1\n", signs(IDS, {"001": "QWERTYUIOP"})
     assert read(text, who=coded).of["001"]["v_D"].value == 3.8

@@ -236,13 +236,40 @@ def test_rows_in_another_order_are_told_and_nothing_is_marked():
 
 
 def test_a_class_that_shares_a_mistake_is_marked():
-    """Plans drawn 2:1, and values in mm: no mistake of the table."""
+    """Plans drawn 2:1: no mistake of the table."""
     doubled = whole_class(lambda f, v: v * 2 if f.endswith("_mm") and f[0] in "va" else v)
     assert {c.name for each in doubled.graded for c in each.causes} == {"own_scale"}
     said = list(result_lines(doubled, words("en")))[1]
     assert said.startswith("The same cause is named for 12 of 12 students: own_scale.")
-    millimetres = whole_class(lambda f, v: v * 1000 if f in ("v_D", "a_D") else v)
-    assert {c.name for each in millimetres.graded for c in each.causes} == {"power_of_ten"}
+
+
+@pytest.mark.parametrize(
+    ("change", "columns", "mend"),
+    [
+        (lambda f, v: v * 1000 if f in ("v_D", "a_D") else v, '"v_D", "a_D"', "v_D [mm/s]"),
+        (lambda f, v: v / 1000, '"v_D", "a_D"', "correct the columns"),
+        (lambda f, v: v / 10 if f in ("v_D_mm", "a_D_mm") else v, '"v_D_mm"', "v_D_mm [cm]"),
+    ],
+)
+def test_columns_in_another_unit_are_told_and_nothing_is_marked(change, columns, mend):
+    with pytest.raises(RosterError, match="another unit") as caught:
+        whole_class(change)
+    assert columns in str(caught.value)
+    assert mend in str(caught.value)
+
+
+def test_half_a_class_in_another_unit_is_marked():
+    """Each of them has the cause."""
+    takers, answers = keys_of(12)
+    who = {each.student.id for each in takers[:6]}
+    given = {
+        i: written(row, lambda f, v, i=i: v * 1000 if i in who and f in ("v_D", "a_D") else v)
+        for i, row in answers.items()
+    }
+    result = graded_class(book_of("pump"), takers, given)
+    named = {each.taker.student.id for each in result.graded if each.causes}
+    assert named == who
+    assert {c.name for each in result.graded for c in each.causes} == {"power_of_ten"}
 
 
 def test_a_class_may_be_marked_as_it_is():

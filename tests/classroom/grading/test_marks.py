@@ -8,6 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.class_marking import unfollowed
 from graphkin.classroom.grading.form_relations import Own, OwnLengths
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
@@ -174,3 +175,15 @@ def test_two_cells_of_one_row_exchanged_are_named():
     key = key_answers(marker.standard)
     swapped = key | {"v_D": key["v_D_mm"], "v_D_mm": key["v_D"]}
     assert [cause.name for cause in marker.mark(taker(7), swapped).causes] == ["answers_exchanged"]
+
+
+def test_a_sense_beside_a_value_that_no_longer_follows_earns_nothing():
+    """Values that fit another's data do not follow, and their senses are right by chance."""
+    marker = marker_of("pump", 7)
+    (graded,) = [marker.mark(taker(7), key_answers(marker.standard))]
+    follows = replace(graded.mark("omega_3"), status=Status.FOLLOWS, source="v_D")
+    marks = tuple(follows if m.item.field == "omega_3" else m for m in graded.marks)
+    found = unfollowed(replace(graded, marks=marks), ("omega_3",))
+    assert [found.mark(f).earned for f in ("omega_3", "omega_3_sense")] == [0, 0]
+    assert found.mark("omega_3_sense").alone
+    assert found.mark("omega_2_sense").earned

@@ -7,7 +7,9 @@ import errno
 import io
 import re
 import shutil
+from fractions import Fraction
 from functools import cache
+from math import inf, nan
 from pathlib import Path
 
 import pytest
@@ -19,7 +21,7 @@ from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_report import pictures
 from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
-from graphkin.classroom.grading.graded import Answer, Result, Suspicion
+from graphkin.classroom.grading.graded import Answer, Decision, EarnedCause, Result, Suspicion
 from graphkin.classroom.grading.grading_files import (
     ReportSettings,
     differences,
@@ -28,6 +30,7 @@ from graphkin.classroom.grading.grading_files import (
     read_marks,
     report_files,
 )
+from graphkin.classroom.grading.kept_marks import KEPT_MARKS, kept_marks, read_kept_marks
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.cli.main import app
@@ -362,3 +365,22 @@ def test_a_language_of_the_class_list_is_that_of_the_feedback(tmp_path):
         assert 'lang="ro"' in last.read_text(encoding="utf-8")
         title = (tmp_path / "out/feedback/1.html").read_text(encoding="utf-8")
         assert "Meccanismo di pompa" in title
+
+
+def test_the_desk_reads_all_that_was_marked(tmp_path):
+    """Values that are no number, exact points, causes and decisions, and hostile names."""
+    found = small_class(v_C=1.0)
+    decided = Decision("=1+1", "v_D", Fraction(1, 3), HOSTILE, before=Fraction(2))
+    first, *others = found.graded[0].marks
+    first = replace(first, expected=nan, tolerance=inf, decision=decided, by_cause=-2.5, torn=True)
+    bare = tuple(replace(m, item=replace(m.item, vector=None)) for m in (first, *others))
+    cause = EarnedCause("other_side", Fraction(7, 3), 12.5, ("0002",), {"en": HOSTILE})
+    one = replace(found.graded[0], marks=bare, causes=(cause,), remarks={"v_D": HOSTILE})
+    result = replace(found, graded=(one,), copies=(Suspicion(("a", "b"), ("v_D",), 1e3, 7),))
+    (tmp_path / KEPT_MARKS).write_bytes(
+        kept_marks(result, marker_of("pump", 7).standard.items, [], "")
+    )
+    again = read_kept_marks(tmp_path)
+    assert again is not None
+    assert repr(again.graded) == repr(result.graded)
+    assert again.copies == result.copies

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from concurrent.futures import ThreadPoolExecutor
+from fractions import Fraction
 from time import sleep
 
 import numpy as np
@@ -14,7 +15,7 @@ from hypothesis import strategies as st
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.printing.answer_form import (
-    LEAST_ROW,
+    MOST_ROW,
     ROW,
     form,
     row_height,
@@ -35,7 +36,7 @@ from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.roster.student import Student
 from graphkin.classroom.roster.taker import Taker
 from graphkin.documents.view_names import VIEWS
-from graphkin.drawing.field import A3
+from graphkin.drawing.field import A3, A4_PAGE, LETTER
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import measures, plain
 from graphkin.text import LANGUAGES, words
@@ -183,13 +184,24 @@ def test_a_centre_stands_on_the_key_as_the_form_asks_for_it(tmp_path, language):
     assert plain(words(language)("form.places", pivot="*O*")) in texts(page)
 
 
-@pytest.mark.parametrize(("count", "pages"), [(20, 1), (33, 1), (36, 1), (39, 2), (70, 2), (80, 3)])
-def test_rows_of_a_form_come_closer_only_to_save_a_page(count, pages):
-    height = row_height(count)
-    assert LEAST_ROW <= height <= ROW
-    assert math.ceil(count / rows_within(height)) == pages
-    if height < ROW:
-        assert math.ceil(count / rows_within(ROW)) > pages
+@pytest.mark.parametrize("paper", [A4_PAGE, LETTER])
+@pytest.mark.parametrize("count", [20, 30, 33, 36, 39, 62, 70, 80])
+def test_rows_of_a_form_are_seven_millimetres_high_or_fill_their_page(count, paper):
+    height = row_height(count, paper)
+    assert ROW <= height <= MOST_ROW
+    assert math.ceil(count / rows_within(height, paper)) == math.ceil(
+        count / rows_within(ROW, paper)
+    )
+
+
+def test_a_form_ends_with_the_sum_of_its_points(edition):
+    sheets = Sheets(order(edition), edition.takers[0])
+    fields = items(sheets.mechanism, edition.lab)[:3]
+    points = {item.field: Fraction(3, 2) for item in fields[:2]}
+    (page,) = form(fields, points, (), words("en"), ("Title", "Answers"), ("Ana", "AAAA"))
+    assert {"total", "3"} <= {*texts(page)}
+    (page,) = form(fields, {}, (), words("en"), ("Title", "Answers"), ("Ana", "AAAA"))
+    assert "total" not in texts(page)
 
 
 def test_a_long_form_goes_on_on_further_pages(edition):

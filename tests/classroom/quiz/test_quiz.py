@@ -168,6 +168,24 @@ def test_data_too_long_for_a_title_block_make_a_quiz_as_well(tmp_path):
     assert all(f"{name} = " in one.name for name in (*more, "n", "r"))
 
 
+def test_data_are_written_as_the_sheets_write_them(tmp_path):
+    """φ₁ = 130°, not phi = 130: names are plain text, the task is markup."""
+    shipped = lab_of("offset-slider-crank")
+    scene = shipped.scene.read_text(encoding="utf-8")
+    scene = scene.replace('"128 + 6*n/5"', '"phi"')
+    phi = "[parameters]\nphi = { value = 130, min = 0, max = 360 }\n"
+    scene = scene.replace("[parameters]\n", phi)
+    (tmp_path / "scene.toml").write_text(scene, encoding="utf-8")
+    rules = re.sub(r"(?m)^set = .*$", 'set = { phi = "130 + number/2", n = 7 }', shipped.text)
+    (tmp_path / "lab.toml").write_text(rules, encoding="utf-8")
+    lab = read_lab(tmp_path)
+    every, _ = variants_of(lab, 1)
+    (found,) = questions(PrintOrder(lab, scene, "it", "colour"), every, 1)
+    assert found.name == "φ = 130,5°, n = 7"
+    for each in (found.text, found.task):
+        assert "; <i>φ</i> = 130,5°, <i>n</i> = 7</p>" in each
+
+
 def test_no_text_ends_a_gap():
     """And points become whole numbers in their proportion."""
     item = next(iter(marker_of("pump", 7).standard.items))
@@ -188,7 +206,7 @@ def test_the_bank_has_a_category_with_a_whole_question_for_each_variant(language
     found = moodle.imported(data)
     assert len(found) == len(fair) == 3 - len(unfair)
     assert [each.category for each in found] == [
-        f"$course$/top/a//b/n = {n}, r = {r}" for n, r in ((1, 52), (2, 58), (3, 64))
+        f"$course$/top/a//b/n = {n}, r = {r} mm" for n, r in ((1, 52), (2, 58), (3, 64))
     ]
     assert len({each.name for each in found}) == len(found)
     said = words(language)

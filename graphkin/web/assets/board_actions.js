@@ -1,0 +1,59 @@
+// The actions of the board, as graphkin.construction.registry has them. Made by `python -m tests.scripts`.
+
+/** Shape of each result, its drawing (0 mechanism, 1 velocities, 2 accelerations, 3 numbers), and
+ * the input whose drawing it shares; only where it is no point beside its first input.
+ * @type {Record<string, [string, number | null, number]>} */
+export const ACTIONS = {
+  ray: ["line", null, 0],
+  perpendicular: ["line", null, 0],
+  parallel: ["line", null, 0],
+  compass: ["circle", null, 0],
+  triangle: ["point", 3, 0],
+  coriolis: ["point", 3, 0],
+  join: ["line", null, 0],
+  pole: ["point", 0, 0],
+};
+
+/** The signs and words by which each action is typed.
+ * @type {Record<string, string[]>} */
+export const TYPED = {
+  ray: ["∠", "ray"],
+  set_off: ["↦", "off"],
+  perpendicular: ["⊥", "perp", "_"],
+  parallel: ["∥", "par", "//"],
+  cut: ["×", "cut", "x"],
+  lay_off: ["→", "lay", "+"],
+  compass: ["arc"],
+  similar: ["∼", "sim", "~"],
+  triangle: ["△", "tri"],
+  coriolis: ["cor"],
+  join: ["join"],
+  pole: ["pole"],
+};
+
+/** What each action draws from the keys of its picks: a list of results.
+ * @param {any} given
+ * @returns {Record<string, (...keys: any[]) => any[]>} */
+export const drawn_by = ({ plus, minus, scaled, quarter, long, times, over, cuts, value_of, way, places_of, reach, normal, picks }) => ({
+  ray: (p, angle) => {
+      const turned = value_of(angle) * Math.PI / 180;
+      return [[value_of(p), [Math.cos(turned), Math.sin(turned)]]];
+    },
+  set_off: (p, on, length) => [1, -1].map(side =>
+      plus(value_of(p), scaled(way(on), side * reach(length, p) / long(way(on))))),
+  perpendicular: (p, to) => [[value_of(p), quarter(way(to))]],
+  parallel: (p, to) => [[value_of(p), way(to)]],
+  cut: (m, n) => m === n ? [] : cuts(value_of(m), value_of(n)),
+  lay_off: (p, v) => [plus(value_of(p), value_of(v)), minus(value_of(p), value_of(v))],
+  compass: (p, opening) => [{ c: value_of(p), r: reach(opening, p) }],
+  similar: (i, j, point) => places_of(i).flatMap(p =>
+      places_of(j).filter(q => long(minus(q, p))).map(q => plus(value_of(i), times(
+        minus(value_of(j), value_of(i)), over(minus(value_of(point), p), minus(q, p)))))),
+  triangle: normal,
+  coriolis: (rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))],
+  join: (p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]],
+  pole: (bar, i, j) => [picks[bar].on, [...picks[bar].on].reverse()].map(ends => {
+      const [p, q] = ends.map(value_of), image = value_of(i);
+      return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));
+    }),
+});
