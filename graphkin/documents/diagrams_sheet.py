@@ -51,7 +51,7 @@ from graphkin.drawing.scale import preferred
 from graphkin.drawing.symbol_markup import escape
 from graphkin.drawing.symbols import head
 from graphkin.motion.course import Reals
-from graphkin.motion.cycle import columns_at
+from graphkin.motion.cycle import assigned, columns_at
 from graphkin.motion.extremes import asked_measures
 from graphkin.scene.link_points import lettered
 from graphkin.text import Words
@@ -745,7 +745,7 @@ LEAST, ROWS = 85.0, 4
 
 
 class Asked(Struct, frozen=True):
-    """A velocity or acceleration that the scene asks for: its symbol and unit, and its values."""
+    """A motion or a force that the scene asks for: its symbol and unit, and its values."""
 
     symbol: str
     unit: str
@@ -811,6 +811,31 @@ def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     return made
 
 
+def force_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
+    """The reactions and balances that the scene asks for, at the positions and between them."""
+    cycle, given = found.cycle, found.cycle.scene.forces
+    if given is None or not given.asked:
+        return []
+    from graphkin.motion.forces_along import forces_along
+
+    known = []
+    for u in (at, fine):
+        number, within = assigned(cycle.path, u, 0.0)
+        forces = forces_along(cycle.pieces, number, within, given)
+        if forces is None:
+            return []
+        known.append(forces.values)
+    made = []
+    for target in known[0]:
+        quantity, (here, between) = BY_TARGET[target[0]], (some[target] for some in known)
+        size = np.iscomplexobj(between)
+        letter = found.shown.alone.symbol(target[1])
+        values = (np.abs(here), np.abs(between)) if size else (here, between)
+        text, look = (f"|{letter}|", "reaction") if size else (letter, "balance")
+        made.append(Asked(text, quantity.unit, target[1], look, *values))
+    return made
+
+
 def columns_on(found: PositionSet) -> int:
     """The most diagrams side by side on a sheet."""
     left, _, right, _ = field_on(found)
@@ -824,6 +849,7 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     every = asked_courses(found, at, fine)
     every += of_forces(found, at, fine)
     every += of_follower(motion, at, fine) if motion else []
+    every += force_courses(found, at, fine)
     every = [each for each in every if np.isfinite(each.fine).any()]
     per = columns_on(found) * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]

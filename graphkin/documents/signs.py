@@ -70,11 +70,16 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
     """
     driven = {driver.link for driver in drawing.scene.drivers if driver.kind == "turn"}
     shown = known_from_drivers(drawing)
-    rates = {name: rate for name, rate in turning_links(drawing) if rate and name not in shown}
+    rates = {
+        (link, name): rate
+        for link, value in turning_links(drawing)
+        if value and link not in shown
+        for name, rate in drawing.turnings(link).items()
+    }
     bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
     left = []
-    for name in sorted(rates, key=lambda name: name in driven):
-        body, sign = bodies[name], sign_of(drawing, name)
+    for name, symbol in sorted(rates, key=lambda each: each[0] in driven):
+        body, sign = bodies[name], sign_of(drawing, symbol)
         at = None
         if body is not None:
             wheels = wheels_of_others(drawing, field, name)
@@ -82,23 +87,23 @@ def senses(drawing: Drawing, field: Field, space: Space) -> Iterator[Mark]:
             near = (place for place in beside if is_beside(complex(*place), wheels))
             at = space.first(near, (0.0, 0.0), sign.radius + AIR)
         if at is None:
-            left.append(name)
+            left.append((name, symbol))
         else:
-            yield from sign.put(space, at, rates[name])
+            yield from sign.put(space, at, rates[name, symbol])
     lost = []
-    for name in left:
+    for name, symbol in left:
         body = bodies[name]
-        whole = sign_of(drawing, name)
+        whole = sign_of(drawing, symbol)
         sides = () if body is None else tuple(places_beside(body, whole.radius + AIR))
         for sign in dict.fromkeys((whole, whole.aside)):
             around = places_around(drawing, field, name, bodies)
             at = space.first(chain(around, sides), sign.half, AIR)
             if at is not None:
-                yield from sign.put(space, at, rates[name])
+                yield from sign.put(space, at, rates[name, symbol])
                 break
         else:
-            lost.append(name)
-    yield from at_foot(drawing, space, {name: rates[name] for name in lost})
+            lost.append((name, symbol))
+    yield from at_foot(drawing, space, {each[1]: rates[each] for each in lost})
 
 
 def known_from_drivers(drawing: Drawing) -> set[str]:
@@ -146,8 +151,8 @@ class Sign(NamedTuple):
 
 
 def sign_of(drawing: Drawing, name: str) -> Sign:
-    """The arrow of a link with its letter inside."""
-    text = drawing.symbol(drawing.turning_name(name))
+    """The arrow of what turns a link, by its name, with its letter inside."""
+    text = drawing.symbol(name)
     width, top, bottom = extent(text, HEIGHT)
     return Sign(text, drawing.kind, max(ROUND, hypot(width, bottom - top) / 2 + 0.7))
 
@@ -188,10 +193,8 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     """The senses without room, in words, in one line as low in the field as possible."""
     if not rates:
         return
-    letter, words = drawing.rate.letter, drawing.words
-    caption = "; ".join(
-        f"{drawing.symbol(f'{letter}_{n}')}: {sense_word(words, r)}" for n, r in rates.items()
-    )
+    words = drawing.words
+    caption = "; ".join(f"{drawing.symbol(n)}: {sense_word(words, r)}" for n, r in rates.items())
     width, top, bottom = extent(caption, HEIGHT)
     half = width / 2, (bottom - top) / 2
     (left, high, right, low), air = space.rect, AIR + 0.1

@@ -124,7 +124,8 @@ def known_forces(scene: Scene, forces: Forces, motion: Motion) -> Iterator[Actin
     for spring in forces.springs:
         one, other = (motion.point(end) for end in spring.ends)
         way = complex(other.place[0] - one.place[0])
-        pull = si(spring.stiffness, scene) * (1 - si(spring.free, scene) / abs(way)) * way
+        unit = way / abs(way) if way else 0j
+        pull = si(spring.stiffness, scene) * (abs(way) - si(spring.free, scene)) * unit
         for link, here, force in zip(spring.links, (one, other), (pull, -pull), strict=True):
             if link != FRAME:
                 place, velocity = complex(here.place[0]), complex(here.velocity[0])

@@ -66,4 +66,6 @@ def forces_along(
 
 def of_lever(balance: LeverBalance) -> int:
     """The step of a balance by the lever: the moment of a crank, or the force on a block."""
-    return balance.force if balance.moment is None else balance.moment
+    number = balance.force if balance.moment is None else balance.moment
+    assert number is not None
+    return number

@@ -33,6 +33,27 @@ def told(run: Run, *args: object) -> Any:
     return json.loads(result.stdout)
 
 
+FORCES = ROOT / "tests" / "scenes" / "forces"
+
+
+def test_forces_have_their_own_effects_and_causes(run: Run, tmp_path: Path) -> None:
+    """Steps for loads and for reactions, only where they are asked; the reason names the masses."""
+    found = told(run, FORCES / "gas-engine.toml")
+    assert found["asked"] == "reactions O, A and 3; balance"
+    by_name = {row["effect"]: row for row in found["effects"]}
+    for name in ("loads", "reactions and balance"):
+        assert by_name[name]["in"] and by_name[name]["steps"] > 5
+    assert "links 1, 2 and 3 have masses" in by_name["loads"]["why"]
+    assert sum(by_name[e]["steps"] for e in EFFECTS) == found["steps_asked"]
+    assert found["steps_asked"] < found["steps_everything"]
+    text = (FORCES / "gas-engine.toml").read_text(encoding="utf-8")
+    quiet = tmp_path / "quiet.toml"
+    quiet.write_text(text.partition("reactions =")[0] + 'velocity = ["A"]\n', encoding="utf-8")
+    row = of(quiet)["reactions and balance"]
+    assert not row.included and row.reason == "[ask] names no reactions and no balance"
+    assert "no masses and no loads" in of("pump")["loads"].reason
+
+
 @pytest.mark.parametrize("name", ["pump", SCENES / "oscillating-slide.toml"])
 def test_every_effect_that_is_in_has_its_own_time_and_no_other(run: Run, name: object) -> None:
     found = told(run, name)

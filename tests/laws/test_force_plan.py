@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import random
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -21,7 +23,9 @@ from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
+from tests.chance.checking import told
 from tests.chance.forces import dyads
+from tests.chance.making import made
 from tests.chosen import FOLDER
 from tests.laws.force_routes import differences, loaded
 from tests.laws.test_forces import (
@@ -39,6 +43,7 @@ from tests.mechanisms import LAW, mechanism_of, mechanisms
 EVERY = [SLIDER, SWINGING, CROSSED, TWO_BLOCKS, SHARED.format(on=2), SHARED.format(on=4)]
 NAMES = ["RRP", "RPR", "RPP", "PRP", "RRR", "RRR-shared"]
 CLOSE = 1e-12
+SCENES = Path(__file__).parents[1] / "scenes" / "forces"
 
 
 @pytest.mark.parametrize("text", EVERY, ids=NAMES)
@@ -77,6 +82,21 @@ OTHERS = {
 """Scenes of the gallery by the kind of group whose forces they have."""
 
 
+@pytest.mark.parametrize("moment", [-60, 80])
+@pytest.mark.parametrize("angle", [0, 30, 200])
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_planet_between_two_wheels_gives_the_forces_of_the_equations(moment, angle, plain):
+    """Also without teeth, which push along the tangent alone."""
+    text = (SCENES / "planetary.toml").read_text(encoding="utf-8")
+    text = text.replace("moment = -60", f"moment = {moment}")
+    text = text.replace("= 30\nspeed", f"= {angle}\nspeed")
+    if plain:
+        text = text.replace("module = 4\n", "")
+        text = re.sub(r"teeth = (\d+)", lambda m: f"radius = {2 * int(m[1])}", text)
+    mechanism = Mechanism(read_text(text, "planetary", None, {}))
+    assert max(differences(mechanism)) < 1e-11
+
+
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("name", [name for some in OTHERS.values() for name in some])
 def test_every_other_group_gives_the_forces_of_the_equations(name, seed):
@@ -86,6 +106,13 @@ def test_every_other_group_gives_the_forces_of_the_equations(name, seed):
     if undrawn(made.scene, made.laid[0]) is not None:
         pytest.fail(f"{name} is not drawn")
     assert max(differences(made)) < 1e-9
+
+
+@pytest.mark.parametrize("seed", [41, 84, 94, 107, 128, 10028, 10094])
+def test_racks_aside_of_their_guides_and_guides_without_force_agree(seed):
+    """A rack's track off the line of its guide, and a couple beside a force that is rounding."""
+    case = told(seed, *made(seed))
+    assert max(differences(loaded(case.mechanism, random.Random(seed)))) < 1e-9
 
 
 def test_the_place_of_a_guide_s_reaction_is_that_of_the_solution():

@@ -52,6 +52,7 @@ MANY |= {
 }
 MANY["two_trials.pace"] = ("rrr", (2,))
 MANY["loads.by_table"] = ("rrr", (0.5, 1.5, 4.0, 9.0))
+MANY["lever.lever_rate"] = ("ppppr", (2,))
 MANY["lever.lever_balance"] = ("ppppr", (2,))
 MANY |= {
     f"moments.{name}": ("ppppr", (2,))

@@ -45,10 +45,11 @@ def explained(new: Callable[[], Mechanism]) -> Explanation:
     if (forces := mechanism.scene.forces) is not None and forces.asked:
         mechanism = mechanism.with_forces
     program, asked, scene = mechanism.program, mechanism.asked(), mechanism.scene
-    less, more = (len(program.needed(targets)) for targets in (asked, program.answers))
-    unmeasured = undrawn(mechanism, program.answers)
+    answers = *program.answers, *mechanism.forces_asked()
+    less, more = (len(program.needed(targets)) for targets in (asked, answers))
+    unmeasured = undrawn(mechanism, answers)
     try:
-        wholes = [asked] if unmeasured else [asked, program.answers]
+        wholes = [asked] if unmeasured else [asked, answers]
         rows, (some, *every) = measured(mechanism, Stopwatch(), wholes)
     except ClosureError as error:
         why = str(error.problems[0])

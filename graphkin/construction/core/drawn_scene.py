@@ -337,6 +337,11 @@ class Drawing(Struct, frozen=True, dict=True):
         """The name of the symbol of what turns a link on this sheet."""
         return f"{self.rate.letter}_{link}"
 
+    def turnings(self, link: str) -> Mapping[str, float]:
+        """What turns a link on this sheet, by the names of the symbols."""
+        value = self.turning(link)
+        return {} if value is None else {self.turning_name(link): value}
+
     def rate_size(self, number: int, kind: str = "velocity") -> float:
         """The magnitude of an angular velocity or acceleration, by its step; zero for rounding."""
         value = abs(float(self.trace.values[number]))

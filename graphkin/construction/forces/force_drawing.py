@@ -95,6 +95,10 @@ class ForceDrawing(Drawing, frozen=True):
         """The name of the moment on a link."""
         return next(iter(self.moments[link]))
 
+    def turnings(self, link: str) -> Mapping[str, float]:
+        """All moments on a link."""
+        return self.moments.get(link, {})
+
     @cached_property
     def moments(self) -> Mapping[str, Mapping[str, float]]:
         """The moments on each link by their names: that of its driver, then given ones."""
@@ -148,7 +152,7 @@ class ForceDrawing(Drawing, frozen=True):
         """The balance by the lever, if it is drawn."""
         if self.extents.lever is not None:
             for step in self.trace.program.steps:
-                if isinstance(step.of, LeverBalance) and step.role == "force":
+                if isinstance(step.of, LeverBalance) and step.role == step.of.last:
                     yield step.of
 
 

@@ -52,7 +52,7 @@ from graphkin.construction.forces.polygon import (
 from graphkin.construction.forces.slide_pressure import pressure
 from graphkin.construction.forces.tooth_force import pitch_of, pitch_on, pressure_angle, rack, tooth
 from graphkin.scene.findings import natural
-from graphkin.scene.model import FRAME, Driver, Scene
+from graphkin.scene.model import FRAME, Driver, Scene, Wheel
 from graphkin.structure.groups import (
     CamFollower,
     Crank,
@@ -63,9 +63,10 @@ from graphkin.structure.groups import (
     Group,
     Higher,
     Stretched,
+    Train,
     other_of,
 )
-from graphkin.structure.pairs import Joint, Pin, PinLine, Sliding, pairs
+from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding, pairs
 
 
 def undrawn(scene: Scene, groups: Sequence[Group]) -> Group | None:
@@ -95,6 +96,15 @@ def is_drawn(scene: Scene, group: Group) -> bool:
                 wheel = contact.track if contact.links[0] != link else contact.wheel
                 return wheel is not None and wheel.centre == pair.place
             return contact.track is None and contact.links[1] == link and is_plain(scene, pair)
+        case Train(wheel=wheel, pivot=pivot, centre=centre, contacts=both):
+            return all(
+                contact.rolling.belt is None
+                and contact.track is not None
+                and not contact.wheel_of(wheel).inside
+                and contact.wheel_of(wheel).centre == centre.place
+                and facing(contact, wheel).centre == pivot.place
+                for contact in both
+            )
         case Higher():
             return coupled(scene, group) is not None
         case Driven(pair=pair):
@@ -210,6 +220,8 @@ class ForcePlan:
                     driving += self.stretched(group)
                 case Higher():
                     self.class_three(group)
+                case Train():
+                    self.train(group)
                 case Geared(pair=Pin()):
                     self.geared(group)
                 case Geared():
@@ -599,9 +611,52 @@ class ForcePlan:
             inside, angle = wheels[0].inside, pressure_angle(*wheels)
             pitch = pitch_of(pen, moments.about, wheels)
         name = self.name(contact, link)
-        found = tooth(pen, name, link, pitch, angle, moments, inside=inside)
+        found = tooth(pen, name, link, pitch, angle, moments, outward=inside)
         self.pressed(contact, link, found.force, pitch)
         self.read_off(name, self.closed_at("", link, pin))
+
+    def train(self, group: Train) -> None:
+        """A wheel between two known wheels, on an arm about their centre.
+
+        Both contacts, the centre of the wheel and the pivot of the arm lie on one line. The moment
+        of the arm gives the part of the force on the wheel across that line. The moments of the
+        wheel about one contact then give the force at the other one.
+        """
+        pen, wheel, arm = self.pen, group.wheel, group.arm
+        centre, pivot = group.centre, group.pivot
+        first, last = group.contacts
+        place = pen.the("position", centre.place)
+        bar_ends, part = (centre.place, pivot.place), self.name(centre, arm, "t")
+        own = self.about(pivot.place, arm)
+        acting = [*self.acting[wheel]]
+        if own.terms:
+            pushed = self.back(tangential(pen, part, arm, bar_ends, own))
+            acting.append(LinkForce(self.name(centre, wheel, "t"), PART, pushed, place))
+        pitches, angles = [], []
+        for contact in group.contacts:
+            wheels = contact.wheel_of(wheel), contact.wheel_of(self.partner(contact, wheel))
+            pitches.append(pitch_of(pen, place, wheels))
+            angles.append(pressure_angle(*wheels))
+        about = moments_about(pen, pitches[0], first.letter, acting, self.arms)
+        name, ends = self.name(last, wheel), (first.letter, last.letter)
+        found = tooth(
+            pen,
+            name,
+            wheel,
+            pitches[1],
+            angles[1],
+            about,
+            outward=pushes_outward(pen.scene, group),
+            across=ends,
+        )
+        self.pressed(last, wheel, found.force, pitches[1])
+        moments, other = self.about(centre.place, wheel), self.name(first, wheel)
+        force = tooth(pen, other, wheel, pitches[0], angles[0], moments, outward=False).force
+        self.pressed(first, wheel, force, pitches[0])
+        polygon = self.closed_at("", wheel, centre)
+        self.read_off(name, polygon)
+        self.read_off(other, polygon)
+        self.closed_at("", arm, pivot)
 
     def on_rack(self, group: Geared) -> None:
         """A rack on a guide: the line of action and the guide's normal close its polygon."""
@@ -613,7 +668,7 @@ class ForcePlan:
         assert isinstance(pair, Sliding)
         track, guide = pen.the("track", contact.links[0]), (self.guide(pair), pair.block)
         found = rack(pen, polygon, name, link, angle, centre, track, guide)
-        pen.want(PAIR_REACTION.target, name, found.force)
+        self.read_off(name, polygon)
         held = polygon.reaction(self.name(pair, link), polygon.last, polygon.start, closes=True)
         self.pressed(contact, link, found.force, found.pitch)
         point = pen.scene.link(pair.block).points[0]
@@ -757,8 +812,9 @@ class ForcePlan:
     def lever(self, group: Crank | Driven | Cylinder, other: int) -> None:
         """The lever with every load; none where the driven point is at rest for all parameters."""
         pen, numbers = self.pen, (f"H_{number}" for number in count(1))
-        tip = self.driven_point(group)
-        if tip is None or group.driver.speed.is_zero():
+        tip, turns = self.driven_point(group), isinstance(group, Crank)
+        by_rate = tip is None and isinstance(group, Crank) and group.driver.against == FRAME
+        if not (tip or by_rate) or group.driver.speed.is_zero():
             return
         plan = LeverPlan(pen)
         forces, couples = [], []
@@ -775,8 +831,10 @@ class ForcePlan:
                     turned = plan.moved(link, each.name, masses[link].centre, each.place)
                 if turned != plan.pole:
                     forces.append(plan.put(each, turned, next(numbers)))
-        turns = isinstance(group, Crank)
         link = group.far if isinstance(group, Cylinder) else group.link
+        if tip is None:
+            plan.by_rate("M_" + sub("b", link), link, forces, couples, other)
+            return
         ends = (group.pivot, tip) if isinstance(group, Crank) else (tip, tip)
         names = "F_b" if turns else "F_" + sub("b", link), "M_" + sub("b", link)
         plan.balance(names, ends, forces, couples, other, turns=turns)
@@ -794,6 +852,27 @@ class ForcePlan:
             return crank_tip(pen.scene, group)
         assert isinstance(group.pair, Sliding)
         return pen.scene.link(group.pair.block).points[0]
+
+
+def facing(contact: Contact, link: str) -> Wheel:
+    """The wheel that a link's wheel touches."""
+    first, second = contact.links
+    return contact.wheel_of(second if link == first else first)
+
+
+def pushes_outward(scene: Scene, group: Train) -> bool:
+    """Whether the teeth at the last contact push the wheel away from its first contact.
+
+    The places of both contacts count from the wheel's centre, away from the arm's pivot.
+    """
+    places = []
+    for contact in group.contacts:
+        radius = contact.wheel_of(group.wheel).radius
+        assert radius is not None
+        sign = 1 if facing(contact, group.wheel).inside else -1
+        places.append(sign * float(radius.si(scene.values)))
+    one, other = places
+    return (one - other) * -other < 0
 
 
 def follower_of(scene: Scene, dyad: Dyad) -> str:

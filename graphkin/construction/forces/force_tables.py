@@ -38,8 +38,8 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     heads = words("table.symbol"), words("table.millimetres"), "N"
     found = [CellTable(heads, rows, kind="sides")]
     if balance := balance_rows(drawing, empty=empty):
-        heads = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
-        found.append(CellTable(heads, balance, kind="balance"))
+        over = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
+        found.append(CellTable(over[: len(balance[0].cells)], balance, kind="balance"))
     return [table for table in found if table.rows]
 
 
@@ -102,14 +102,14 @@ def balances(drawing: ForceDrawing) -> Iterator[DriverBalance]:
 
 
 def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
-    """One row for the balance of each driver; without values on a task."""
-    return [
-        Row(
-            (
-                f"{symbol(each.name)}, {each.unit}",
-                *(("", "") if empty else (f"{each.value} {each.sense}".strip(), each.by_lever)),
-            ),
-            each.name,
-        )
-        for each in balances(drawing)
-    ]
+    """One row for the balance of each driver; without values on a task.
+
+    The lever has its column where there is one.
+    """
+    has_lever = any(True for _ in drawing.lever_balances())
+    rows = []
+    for each in balances(drawing):
+        found = (f"{each.value} {each.sense}".strip(), *([each.by_lever] if has_lever else []))
+        cells = ("",) * len(found) if empty else found
+        rows.append(Row((f"{symbol(each.name)}, {each.unit}", *cells), each.name))
+    return rows

@@ -72,5 +72,6 @@ def reaction_names(scene: Scene, asked: Iterable[str]) -> Iterator[str]:
         pairs = [*permutations(owners, 2)]
         if block is not None:
             others = [*(e.on for e in block.slides), *(e.on for e in block.rolls)]
+            others += [scene.cams[name].on] if name in scene.cams else []
             pairs = [pair for other in others for pair in ((name, other), (other, name))]
         yield from (f"R_{link_pair(*pair)}" for pair in pairs)

@@ -57,6 +57,28 @@ def lever_balance(turned: Point, *rest: Any) -> Point:
     ``rest`` holds pairs of the foot of an arm and its force, then the moments of couples, then the
     number of pairs.
     """
+    square = turned.real * turned.real + turned.imag * turned.imag
+    return -power_of(rest) / square * (1j * turned)
+
+
+@action("lever-moment")
+def lever_moment(start: Point, end: Point, force: Point) -> Real:
+    """The moment of the balancing force about the crank's pivot."""
+    return cross(end - start, force)
+
+
+@action("lever-rate")
+def lever_rate(omega: Real, *rest: Any) -> Real:
+    """The moment on a link with a rate that balances the powers of all loads.
+
+    ``rest`` holds pairs of the foot of an arm and its force, then the moments of couples, then the
+    number of pairs.
+    """
+    return -power_of(rest) / omega
+
+
+def power_of(rest: tuple[Any, ...]) -> Real:
+    """The sum of the moments of all loads on the lever."""
     *terms, count = rest
     pairs = int(count)
     total: Any = 0.0
@@ -65,14 +87,7 @@ def lever_balance(turned: Point, *rest: Any) -> Point:
         total = total + cross(foot, force)
     for couple in terms[2 * pairs :]:
         total = total + couple
-    square = turned.real * turned.real + turned.imag * turned.imag
-    return -total / square * (1j * turned)
-
-
-@action("lever-moment")
-def lever_moment(start: Point, end: Point, force: Point) -> Real:
-    """The moment of the balancing force about the crank's pivot."""
-    return cross(end - start, force)
+    return total
 
 
 class LeverPole(Construction, frozen=True, kw_only=True):
@@ -144,7 +159,10 @@ class LeverForce(Construction, frozen=True, kw_only=True):
 
 
 class LeverBalance(Construction, frozen=True, kw_only=True):
-    """The balancing ``force`` at the image of the driven point, and the ``moment`` of a crank."""
+    """The balancing ``force`` at the image of the driven point, and the ``moment`` of a crank.
+
+    A crank with no point but its pivot has no ``force``; its ``omega`` gives the moment.
+    """
 
     gives: ClassVar[tuple[str, ...]] = ("force", "moment")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_lever"}
@@ -152,19 +170,28 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
     name: str
     moment_name: str
     ends: tuple[str, str]
-    turned: int
+    turned: int | None
     start: int | None
     end: int | None
     forces: tuple[tuple[str, str, int, int], ...]
     couples: tuple[tuple[str, str, int], ...]
     other: int
-    force: int
+    force: int | None
     moment: int | None = None
+    omega: int | None = None
+    link: str = ""
+
+    @property
+    def last(self) -> str:
+        """The role of its result, at which it is said."""
+        return "force" if self.omega is None else "moment"
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the balancing force at the image of the driven point."""
+        if role != "force" or self.turned is None or self.force is None:
+            return
         turned, force = canvas.value(self.turned), canvas.value(self.force)
-        if role == "force" and canvas.drawing.settled(abs(force)):
+        if canvas.drawing.settled(abs(force)):
             way = force / abs(force) * LENGTH / canvas.mm
             canvas.vector(self.name, "balance", turned, turned + way)
 
@@ -186,6 +213,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         if self.moment is not None:
             moment = float(values[self.moment])
             return moment if drawing.settled(abs(moment) / drawing.reach) else 0.0
+        assert self.force is not None
         return drawing.settled(abs(values[self.force]))
 
     def by_polygon(self, drawing: Drawing) -> float:
@@ -196,17 +224,21 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
     def difference(self, drawing: Drawing) -> float:
         """The difference of both routes, as a share of the larger one."""
         values = drawing.trace.values
-        found = values[self.force] if self.moment is None else values[self.moment]
+        number = self.force if self.moment is None else self.moment
+        assert number is not None
+        found = values[number]
         other = values[self.other]
         largest = max(abs(found), abs(other))
         return float(abs(found - other) / largest) if largest else 0.0
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The lever with its sum of moments, and its result."""
-        if role != "force":
+        if role != self.last:
             return ""
-        words, force = drawing.words, abs(drawing.trace.values[self.force])
-        size = self.size(drawing)
+        words, size = drawing.words, self.size(drawing)
+        if self.turned is None or self.force is None:
+            return self.by_rate(drawing, size)
+        force = abs(drawing.trace.values[self.force])
         letter = symbol(drawing.trace.program.steps[self.turned].name)
         fields = {
             "p": letter,
@@ -226,16 +258,36 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             said + words("step.force-lever-moment", **fields) if self.moment is not None else said
         )
 
+    def by_rate(self, drawing: Drawing, size: float) -> str:
+        """The sum of moments of a lever without a balancing force, over the crank's rate."""
+        words = drawing.words
+        fields = {"m": symbol(self.moment_name), "f": symbol(self.moment_name)}
+        if not size:
+            return words("step.force-lever-none", **fields)
+        return words(
+            "step.force-lever-rate",
+            sum=self.sum(drawing),
+            below=symbol(f"ω_{self.link}"),
+            size=f"{answer(drawing, abs(size))} N·m",
+            sense=sense(words, size),
+            **fields,
+        )
+
+    def in_metres(self, drawing: Drawing) -> bool:
+        """Whether arms count in m/s: beside couples, or over a rate."""
+        return self.omega is not None or any(not each[3] for each in self.terms(drawing))
+
     def below(self, drawing: Drawing) -> str:
         """The arm of the balancing force in symbols, in m/s beside couples."""
+        assert self.turned is not None
         arm = f"*o*{symbol(drawing.trace.program.steps[self.turned].name)}"
-        return f"({arm}·*k*_v)" if any(not each[3] for each in self.terms(drawing)) else arm
+        return f"({arm}·*k*_v)" if self.in_metres(drawing) else arm
 
     def sum(self, drawing: Drawing) -> str:
         """The sum of moments in symbols, positive as a whole."""
         some = list(self.terms(drawing))
         turned = sum(each[2] for each in some) < 0
-        metres = any(not each[3] for each in some)
+        metres = self.in_metres(drawing)
         return signed(
             (
                 (moment > 0) is not turned,
@@ -248,7 +300,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         """The same in figures."""
         some = list(self.terms(drawing))
         turned = sum(each[2] for each in some) < 0
-        metres = any(not each[3] for each in some)
+        metres = self.in_metres(drawing)
         scale = f"·{figure(drawing, drawing.scales.k_lever / 1000)}" if metres else ""
         return signed(
             (
@@ -263,10 +315,18 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The force, then the moment of the crank."""
         size = self.size(drawing)
-        if role != "force" or not size:
+        if role != self.last or not size:
             return
         values = drawing.trace.values
-        metres = any(not each[3] for each in self.terms(drawing))
+        if self.turned is None or self.force is None:
+            assert self.omega is not None
+            omega, rate = symbol(f"ω_{self.link}"), figure(drawing, abs(values[self.omega]))
+            put = f"({self.sum(drawing)})/{omega} = ({self.figures(drawing)})/{rate}"
+            result, said = answer(drawing, abs(size)), sense(drawing.words, size)
+            left, about = symbol(self.moment_name), f"Σ*M*(*o*)/{omega}"
+            yield Relation(left, about, put, result, "N·m", said, turns=True)
+            return
+        metres = self.in_metres(drawing)
         along = figure(drawing, on_lever(drawing, abs(values[self.turned])))
         put = along
         if metres:
@@ -355,6 +415,38 @@ class LeverPlan:
         with pen.on(Part.FORCE, Plane.NUMBERS):
             found = pen.draw(lever_couple, acting.couple, omega)
         return acting.name, f"ω_{link}", found
+
+    def by_rate(
+        self,
+        name: str,
+        link: str,
+        forces: Sequence[tuple[str, str, int, int]],
+        couples: Sequence[tuple[str, str, int]],
+        other: int,
+    ) -> None:
+        """The moment of a crank with no point but its pivot, over its rate."""
+        pen, omega = self.pen, omega_of(self.pen, link)
+        pairs = [n for _, _, foot, force in forces for n in (foot, force)]
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            inputs = omega, *pairs, *(step for _, _, step in couples)
+            moment = pen.draw(lever_rate, *inputs, extra=(float(len(forces)),))
+        pen.make(
+            LeverBalance(
+                name=name,
+                moment_name=name,
+                ends=("", ""),
+                turned=None,
+                start=None,
+                end=None,
+                forces=tuple(forces),
+                couples=tuple(couples),
+                other=other,
+                force=None,
+                moment=moment,
+                omega=omega,
+                link=link,
+            )
+        )
 
     def balance(
         self,

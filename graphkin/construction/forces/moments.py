@@ -27,6 +27,8 @@ from graphkin.drawing.symbols import SQUARE
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Line, cross, dot
 
+NOISE = 1e-13
+"""A reaction below this share of the other forces is rounding, so that it has no place."""
 SEEN = 0.3
 """An arm below this, in mm, is zero on paper."""
 
@@ -70,7 +72,18 @@ def place_by_moments(about: Point, guide: Line, reaction: Point, *rest: Any) -> 
     """The place along a guide through a point where a reaction balances the moments about it."""
     unit = guide.along / abs(guide.along)
     arm = cross(unit, reaction)
-    return about - moment_sum(about, rest) / pick(arm == 0, 1.0, arm) * unit
+    some = abs(arm) > NOISE * sizes(rest)
+    shift = pick(some, moment_sum(about, rest), 0.0) / pick(some, arm, 1.0)
+    return about - shift * unit
+
+
+def sizes(rest: Sequence[Any]) -> Real:
+    """The magnitudes of the forces in a sum of moments together."""
+    *terms, count = rest
+    total: Any = 0.0
+    for force in terms[1 : 2 * int(count) : 2]:
+        total = total + abs(force)
+    return total
 
 
 def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
@@ -85,8 +98,8 @@ def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
 @action("left-couple")
 def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
     """The couple of a guide without a reaction that balances the moments about a point."""
-    arm = cross(guide.along, reaction)
-    return pick(arm == 0, -moment_sum(about, rest), 0.0)
+    arm = cross(guide.along / abs(guide.along), reaction)
+    return pick(abs(arm) > NOISE * sizes(rest), 0.0, -moment_sum(about, rest))
 
 
 def slanted(kind: ForceArm, foot: Any, get: Callable[[int], Any]) -> Any:

@@ -30,7 +30,7 @@ from graphkin.construction.forces.polygon import (
     read_side,
     sides_words,
 )
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import Line, dot
 from graphkin.scene.model import Wheel
@@ -135,8 +135,8 @@ class RackForce(InPolygon, frozen=True, kw_only=True):
 class ToothForce(Construction, frozen=True, kw_only=True):
     """The force ``name`` on a ``link`` from the wheel of another, at their ``pitch`` point.
 
-    ``moments`` are those of the link's loads about its centre. ``angle`` is the pressure angle in
-    degrees, 0 for plain wheels.
+    ``moments`` are those of the link's loads about its centre, or about its other contact if
+    ``across`` names both contacts. ``angle`` is the pressure angle in degrees, 0 for plain wheels.
     """
 
     gives: ClassVar[tuple[str, ...]] = ("pitch", "force")
@@ -148,6 +148,7 @@ class ToothForce(Construction, frozen=True, kw_only=True):
     moments: Moments
     pitch: int
     force: int
+    across: tuple[str, str] = ("", "")
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the radius of the pitch point."""
@@ -185,6 +186,8 @@ class ToothForce(Construction, frozen=True, kw_only=True):
     def below(self, drawing: Drawing) -> str:
         """The arm of the force in symbols: the base radius, in metres beside couples."""
         radius = f"*r*_{{{escape(self.link)}}}"
+        if self.across[0]:
+            radius = bar(*self.across)
         parts = [radius, *([f"cos {self.angle}°"] if self.angle else [])]
         parts += ["*k*_L"] if self.moments.in_metres(drawing) else []
         return f"({'·'.join(parts)})" if len(parts) > 1 else radius
@@ -231,15 +234,34 @@ def pitch_on(pen: Pen, about: int, track: int) -> int:
 
 
 def tooth(
-    pen: Pen, name: str, link: str, pitch: int, angle: int, moments: Moments, *, inside: bool
+    pen: Pen,
+    name: str,
+    link: str,
+    pitch: int,
+    angle: int,
+    moments: Moments,
+    *,
+    outward: bool,
+    across: tuple[str, str] = ("", ""),
 ) -> ToothForce:
-    """The force on a wheel at its ``pitch`` point from its moments about its centre."""
-    slant = (-1 if inside else 1) * math.tan(math.radians(angle))
+    """The force on a wheel at its ``pitch`` point from its moments about its centre.
+
+    Teeth push the wheel ``outward`` from the point of the moments, or towards it.
+    """
+    slant = (-1 if outward else 1) * math.tan(math.radians(angle))
     with pen.on(Part.FORCE, Plane.NUMBERS):
         force = pen.draw(
             tooth_force, moments.about, pitch, *moments.steps, extra=(*moments.extra, slant)
         )
-    found = ToothForce(name=name, link=link, angle=angle, moments=moments, pitch=pitch, force=force)
+    found = ToothForce(
+        name=name,
+        link=link,
+        angle=angle,
+        moments=moments,
+        pitch=pitch,
+        force=force,
+        across=across,
+    )
     return pen.make(found)
 
 

@@ -100,11 +100,22 @@ def written(item, value: float) -> str:
     return f"{abs(value):.4g} {item.unit}"
 
 
-@pytest.mark.parametrize("name", ["four-bar", "shaper", "ram"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("cam-rocker", "class-three", "cylinders", "four-bar", "gas-engine", "planetary", "rack"),
+        *("ram", "shaper"),
+    ],
+)
 def test_the_key_itself_earns_everything(name):
     own = standard_of(name)
     graded = marked(own, dict(own.key))
     assert graded.earned == graded.points and not graded.causes
+
+
+def test_the_force_of_a_cam_and_of_a_rack_is_asked_where_the_follower_or_the_wheel_is():
+    assert {"R_12", "R_02"} <= {*standard_of("cam-rocker").by_field}
+    assert {"R_12", "R_02"} <= {*standard_of("rack").by_field}
 
 
 def test_a_scale_of_the_student_s_own_for_forces_is_named():
