@@ -75,7 +75,7 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED, EITHER = 3.0, 4.5, 0.5
+EXCHANGED, CLEARLY_EXCHANGED, EITHER = 2.5, 4.5, 0.0
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
 
 EITHER is the least of it at each of the two points.
@@ -542,8 +542,8 @@ class PointReader(PointSearch):
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
-                doubts["far"] = from_key > OUTSIDE or far
+                far, seen = abs(best.place - key.middle) > APART, self.is_checked(behind)
+                doubts["far"] = (from_key > OUTSIDE or far) and not seen or from_key > OFF
                 doubts["before"] |= apart > FITS and bool(self.doubted & behind)
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
