@@ -226,8 +226,7 @@ def vector_end(
     certain = sure and here >= OWN and there[along > long].max() < OWN
     unbroken = drawn(ink, tip, way, UNBROKEN, pale) >= RUNS_ON
     runs_on = not (shared or certain) and beyond >= RUNS_ON and unbroken
-    stops_short = before < STOPS and here < OWN
-    return VectorEnd(head, turned, doubled, runs_on, stops_short, not ended)
+    return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
 
 
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:
