@@ -543,7 +543,7 @@ class PointReader(PointSearch):
             elif away <= FITS and not after:
                 verdict = "right"
                 far, seen = abs(best.place - key.middle) > APART, self.is_checked(behind)
-                doubts["far"] = (from_key > OUTSIDE or far) and not seen or from_key > OFF
+                doubts["far"] = ((from_key > OUTSIDE or far) and not seen) or from_key > OFF
                 doubts["before"] |= apart > FITS and bool(self.doubted & behind)
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"

@@ -23,7 +23,7 @@ BARE = np.arange(4.0, 5.6, 0.2)
 ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
 SWERVES = 0.75
-"""How far beside the line from its tail to its point a vector's stroke may run farther on, in mm."""
+"""How far beside its line a vector's stroke may run farther on, in mm."""
 PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
 ONE_WAY, FAN = np.ones(1), np.exp(1j * np.radians([-4.0, -2.0, 0.0, 2.0, 4.0]))
