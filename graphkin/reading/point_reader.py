@@ -75,10 +75,10 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED, EITHER = 2.5, 4.5, 0.0
+EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 2.5, 4.5, 0.5, -1.5
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
 
-EITHER is the least of it at each of the two points.
+BOTH of the points saying so are enough; no point may say the opposite by more than AGAINST.
 """
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
@@ -208,7 +208,7 @@ class PointReader(PointSearch):
             mine, others = self.readings[one], self.readings[other]
             sides = log_ratio(likely[one], others, mine), log_ratio(likely[other], mine, others)
             gain = sum(sides)
-            if gain < EXCHANGED or min(sides) < EITHER:
+            if min(sides) < (AGAINST if gain >= EXCHANGED else BOTH):
                 continue
             for number, there in ((one, other), (other, one)):
                 reading = self.readings[number]
