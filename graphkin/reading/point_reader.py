@@ -516,8 +516,7 @@ class PointReader(PointSearch):
         else:
             self.crossings[number] = best
             away = own.away(best.place, best.error)
-            if away <= FITS:
-                place = own.weighed(best)
+            place = weighed = own.weighed(best) if away <= FITS else best.place
             from_key = key.away(best.place, best.error)
             apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
             steps = self.sheet.exact.program.steps
@@ -529,7 +528,7 @@ class PointReader(PointSearch):
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
-            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, place))
+            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, weighed))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             doubts |= {
                 "off": self.is_off(away, abs(best.place - own.middle)),
@@ -542,8 +541,8 @@ class PointReader(PointSearch):
                 verdict = "wrong"
             elif away <= FITS and not after:
                 verdict = "right"
-                far, seen = abs(best.place - key.middle) > APART, self.is_checked(behind)
-                doubts["far"] = ((from_key > OUTSIDE or far) and not seen) or from_key > OFF
+                far = abs(best.place - key.middle) > APART and not self.is_checked(behind)
+                doubts["far"] = from_key > OUTSIDE or far
                 doubts["before"] |= apart > FITS and bool(self.doubted & behind)
             elif away <= FITS:
                 verdict = "follows" if from_key > FITS or apart > FITS else "right"
