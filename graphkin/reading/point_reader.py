@@ -75,10 +75,10 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED, EITHER = 3.0, 4.5, 0.5
+EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 2.5, 4.5, 0.5, -1.5
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
 
-EITHER is the least of it at each of the two points.
+BOTH of the points saying so are enough; no point may say the opposite by more than AGAINST.
 """
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
@@ -208,7 +208,7 @@ class PointReader(PointSearch):
             mine, others = self.readings[one], self.readings[other]
             sides = log_ratio(likely[one], others, mine), log_ratio(likely[other], mine, others)
             gain = sum(sides)
-            if gain < EXCHANGED or min(sides) < EITHER:
+            if min(sides) < (AGAINST if gain >= EXCHANGED else BOTH):
                 continue
             for number, there in ((one, other), (other, one)):
                 reading = self.readings[number]
@@ -516,8 +516,7 @@ class PointReader(PointSearch):
         else:
             self.crossings[number] = best
             away = own.away(best.place, best.error)
-            if away <= FITS:
-                place = own.weighed(best)
+            place = weighed = own.weighed(best) if away <= FITS else best.place
             from_key = key.away(best.place, best.error)
             apart = ExpectedPlace(key.middle, own.spread).away(own.middle, np.zeros((2, 2)))
             steps = self.sheet.exact.program.steps
@@ -529,7 +528,7 @@ class PointReader(PointSearch):
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
-            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, place))
+            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, weighed))
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             doubts |= {
                 "off": self.is_off(away, abs(best.place - own.middle)),

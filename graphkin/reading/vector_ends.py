@@ -23,7 +23,7 @@ BARE = np.arange(4.0, 5.6, 0.2)
 ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
 SWERVES = 0.75
-"""How far beside the line from its tail to its point a vector's stroke may run farther on, in mm."""
+"""How far beside its line a vector's stroke may run farther on, in mm."""
 PAST, GOES_ON = np.arange(4.4, 6.0, 0.2), 0.75
 """Distances in mm behind a tip at which a line drawn to this share is no side of a head."""
 ONE_WAY, FAN = np.ones(1), np.exp(1j * np.radians([-4.0, -2.0, 0.0, 2.0, 4.0]))
@@ -34,6 +34,8 @@ OWN = 0.75
 """The least share of the head at a point that counts as the end of its vector without a doubt."""
 RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.86
 """Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
+FADED = 0.2
+"""The darkness from which a ring counts as drawn where lines are crowded and fade each other."""
 ASTRAY = 0.3
 """How far from its point, in mm, the middle of a ring may be."""
 TURNED, PLAIN, LIKELY = 0.65, 0.63, 0.6
@@ -182,7 +184,7 @@ def vector_end(
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
     share = heads(ink, on_shaft(ink, tail + along * way, way), way, pale)
     here = float(share[abs(along - long) <= NEAR].max())
-    marked = is_marked(ink, tip, RINGS)
+    marked = is_marked(ink, tip, RINGS, FADED)
     others = [(each - tail) / way for each in others]
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
@@ -257,15 +259,18 @@ def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex
     return runs_on and not is_marked(ink, tip, PINS)
 
 
-def is_marked(ink: DrawnInk, place: complex, radii: Any) -> bool:
-    """Whether a dot or a ring of one of some radii (mm) is drawn about a place."""
+def is_marked(ink: DrawnInk, place: complex, radii: Any, pale: float = COVERED) -> bool:
+    """Whether a dot or a ring of one of some radii (mm) is drawn about a place.
+
+    Ink darker than ``pale`` counts as drawn.
+    """
     near = np.arange(-ASTRAY, ASTRAY + 0.01, 0.15)
     middles = (place + near[:, None] + 1j * near[None, :]).ravel()
     turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
     rings = middles[:, None, None] + radii[:, None] * turns
     dark, known = ink.at(rings.reshape(len(middles), -1))
     seen = (known > 0).reshape(rings.shape)
-    dark = (dark > COVERED).reshape(rings.shape) & seen
+    dark = (dark > pale).reshape(rings.shape) & seen
     full = dark.sum(axis=2) / np.maximum(seen.sum(axis=2), 1)
     return bool((full * (seen.mean(axis=2) > 0.5)).max() >= ROUND)
 

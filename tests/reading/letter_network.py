@@ -1,6 +1,6 @@
 """Train the network that reads the letters beside points, on letters of many fonts.
 
-    python -m tests.reading.letter_network [--parts 9] [--seed 5] [-j 2]
+    python -m tests.reading.letter_network [--parts 5] [--seed 5] [-j 2]
 
 Each letter is thinned to strokes, bent, and drawn with a pencil beside a point to which lines lead.
 The fonts are those of Debian's packages fonts-dejavu, fonts-liberation, fonts-urw-base35 and
@@ -249,7 +249,7 @@ def main(parts: int, seed: int, jobs: int) -> None:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    parser.add_argument("--parts", type=int, default=9)
+    parser.add_argument("--parts", type=int, default=5)
     parser.add_argument("--seed", type=int, default=5)
     parser.add_argument("-j", "--jobs", type=int, default=1)
     said = parser.parse_args()

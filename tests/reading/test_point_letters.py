@@ -12,7 +12,7 @@ import pytest
 from graphkin.construction.core.program import Plane
 from graphkin.drawing.marks import Text
 from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.point_letters import FLOOR, letters_near
+from graphkin.reading.point_letters import FLOOR, INKED, letters_near, straight
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading, pair
 from tests.reading.hand_letters import Writing, written
@@ -90,6 +90,21 @@ def test_exchanged_letters_are_asked_and_proposed_as_wrong(seed: int) -> None:
     assert one.doubts == ("letter",)
     if one.verdict == "wrong":
         assert one.at == pair(OTHER)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_one_letter_of_another_point_is_enough_to_ask(seed: int) -> None:
+    """The other letter is not read: lines cross it, or it is not there."""
+    one, other = compared(ink_of(*LINES, *strokes("d", seed)))
+    assert one.ask
+    assert other.ask
+    assert not any(each.ask for each in compared(ink_of(*LINES, *strokes("b", seed))))
+
+
+@pytest.mark.parametrize(("long", "gone"), [(6.0, False), (12.0, True)])
+def test_the_stem_of_a_tall_letter_is_no_line(long: float, *, gone: bool) -> None:
+    inked = (ink_of((POINT, POINT + 1j * long)).dark > INKED).astype(np.uint8)
+    assert bool(straight(inked).any()) == gone
 
 
 def test_points_without_letters_are_not_asked() -> None:

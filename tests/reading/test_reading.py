@@ -805,6 +805,14 @@ def test_a_line_that_ends_before_a_point_does_not_lead_to_it(
     assert told.ask is not reached
 
 
+@pytest.mark.parametrize(("away", "off", "asked"), [(9, 0.5, 0), (9, 1.5, 1), (12, 0.5, 1)])
+def test_a_point_near_its_expected_place_is_not_off(away: float, off: float, asked: int) -> None:
+    """The pencil explains it at 9 squared deviations and not at 12."""
+    reader = object.__new__(PointReader)
+    reader.ink = ink_of()
+    assert reader.is_off(away, off) == bool(asked)
+
+
 def test_what_fits_and_lies_far_from_the_key_is_asked(a_class: Path, code: str) -> None:
     """Right and what follows from an unseen mistake are both possible there."""
     sheets = sheets_of(a_class, code)

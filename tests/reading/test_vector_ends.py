@@ -168,3 +168,19 @@ def test_a_bar_that_runs_on_beyond_a_point_without_a_mark_is_seen() -> None:
     assert not bar_runs_on(ink_of((TAIL, far), ACROSS, *RING), TAIL, TIP, [])
     assert not bar_runs_on(ink_of((TAIL, TIP), ACROSS), TAIL, TIP, [])
     assert not bar_runs_on(ink_of((TAIL, far), ACROSS), TAIL, TIP, [far])
+
+
+def test_a_letter_beyond_a_head_is_no_stroke_that_runs_on() -> None:
+    """The letter lies on the line of the vector, apart from the point."""
+    assert read([*vector(TAIL, TIP), (TIP + 2.1 * WAY, TIP + 7 * WAY)]).is_there
+    assert read([(TAIL, TIP + 7 * WAY)]).runs_on
+
+
+def test_a_stroke_beside_its_line_is_no_side_of_a_head() -> None:
+    """Beyond the point the construction line swerves by 0.5 mm, and another line crosses it."""
+    bend = TIP + 16 * WAY
+    swerved = bend + 0.45j * WAY
+    across = WAY * np.exp(1j * np.radians(35))
+    crossing = (swerved - 20 * across, swerved + 20 * across)
+    line = [(TIP, swerved), (swerved, swerved + 30 * (swerved - TIP) / abs(swerved - TIP))]
+    assert read([(TAIL, TIP), *RING, *line, crossing], along=True).head is None
