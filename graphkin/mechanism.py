@@ -26,7 +26,7 @@ from graphkin.construction.core.solution import (
 from graphkin.construction.flat_rods import Laid, laid
 from graphkin.numbers.arithmetic import FLOAT, Kind, np
 from graphkin.scene import scene_files
-from graphkin.scene.link_names import in_language
+from graphkin.scene.known_names import in_language
 from graphkin.scene.link_points import point_of
 from graphkin.scene.model import Scene
 from graphkin.scene.read_scene import read_scene
@@ -243,7 +243,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         given = self.scene.forces
         if given is None or not given.asked or not self.program.reactions:
             return []
-        from graphkin.construction.forces.force_words import is_asked
+        from graphkin.construction.forces.loads import is_asked
 
         return [target for target in self.program.targets if is_asked(self.scene, given, target)]
 

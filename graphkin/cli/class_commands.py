@@ -35,8 +35,8 @@ from graphkin.cli.options import (
 if TYPE_CHECKING:
     from graphkin.classroom.lab.fair_ranges import FairRanges
     from graphkin.classroom.lab.lab_model import Lab
-    from graphkin.classroom.lab.proposed_ranges import ProposedRanges
-    from graphkin.classroom.roster.student import Student
+    from graphkin.classroom.lab.new_lab import ProposedRanges
+    from graphkin.classroom.roster.students import Student
     from graphkin.classroom.variants.assign import Assigned
 
 
@@ -200,7 +200,7 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
 
 def warn_of_languages(roster: str, students: list[Student]) -> None:
     """Warn of languages in a class list that the pages do not have."""
-    from graphkin.classroom.roster.language_names import named_languages, unknown_lines
+    from graphkin.classroom.roster.students import named_languages, unknown_lines
 
     for line in unknown_lines(named_languages(roster, students)):
         complain(line)
@@ -302,7 +302,7 @@ def quiz(
     from graphkin.classroom.printing.workers import cores
     from graphkin.classroom.quiz.moodle_quiz import bank, questions, variants_of
     from graphkin.classroom.quiz.qti_packages import canvas_package, qti3_package
-    from graphkin.classroom.variants.manifest import MANIFEST
+    from graphkin.classroom.variants.assign import MANIFEST
     from graphkin.documents.sheet_documents import language_of
     from graphkin.mechanism import Mechanism
     from graphkin.scene.read_scene import read_text
@@ -364,7 +364,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
       graphkin ranges crank-lab -o ranges
     """
     from graphkin.classroom.lab.fair_ranges import fair_ranges
-    from graphkin.classroom.lab.proposed_ranges import range_lines
+    from graphkin.classroom.lab.new_lab import range_lines
     from graphkin.text.tables import labelled
     from graphkin.writers.files import refuse_folder, write_all
 
@@ -378,7 +378,7 @@ def ranges(name: str, folder: Path | None, force: bool) -> None:
         tell(labelled("formula", formula_lines(lab)))
     tell(["", *proposed(lab, found)])
     if folder is not None:
-        from graphkin.classroom.lab.fair_ranges_pictures import pictures
+        from graphkin.classroom.lab.fair_ranges import pictures
 
         files = dict(pictures(found, lab.name, lab.name))
         tell(["", *map(str, write_all(folder, files, force))])
@@ -389,7 +389,7 @@ NO_RANGES = "no ranges were found in which all is fair"
 
 def formula_lines(lab: Lab) -> list[str]:
     """The numbers for which a formula is unfair, the reasons, and the change that helps."""
-    from graphkin.classroom.lab.proposed_ranges import formula_faults, mending_lines
+    from graphkin.classroom.lab.new_lab import formula_faults, mending_lines
 
     found = formula_faults(lab)
     return mending_lines(found.unfair, found.mending)
@@ -397,7 +397,7 @@ def formula_lines(lab: Lab) -> list[str]:
 
 def proposed(lab: Lab, found: FairRanges) -> list[str]:
     """The proposed ranges as text, with how many students get different data."""
-    from graphkin.classroom.lab.proposed_ranges import proposed_ranges
+    from graphkin.classroom.lab.new_lab import proposed_ranges
 
     new = proposed_ranges(lab, found)
     if new is None:

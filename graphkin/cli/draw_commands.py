@@ -249,7 +249,7 @@ def cycle(
             step("drawing the curves")
             files |= picture_files(found, stem, curves)
         if {"gif", "html"} & {*kinds}:
-            from graphkin.web.animation import animation_files
+            from graphkin.web.player import animation_files
 
             files |= animation_files(found, stem, kinds, lang, step)
     tell(["", *(str(path) for path in write_all(folder, files, force))])

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from graphkin.classroom.grading.gradebook import Filled
     from graphkin.classroom.grading.graded import DrawingRemark, Graded, Result
     from graphkin.classroom.printing.edition import Edition
-    from graphkin.classroom.roster.student_signs import Match
+    from graphkin.classroom.roster.students import Match
     from graphkin.text import Words
     from graphkin.text.errors import Refusals
 
@@ -191,7 +191,6 @@ def grade(  # noqa: PLR0915
     from msgspec.structs import replace
 
     from graphkin.classroom.grading.answers import read_answers
-    from graphkin.classroom.grading.appeals import read_appeals
     from graphkin.classroom.grading.class_marking import graded_class
     from graphkin.classroom.grading.class_report import open_cells, result_lines
     from graphkin.classroom.grading.decisions import (
@@ -202,7 +201,12 @@ def grade(  # noqa: PLR0915
         releases,
         settled,
     )
-    from graphkin.classroom.grading.desk_rulings import all_decisions, desk_decided, read_as
+    from graphkin.classroom.grading.desk_rulings import (
+        all_decisions,
+        desk_decided,
+        read_appeals,
+        read_as,
+    )
     from graphkin.classroom.grading.gradebook import read_gradebook, with_marks
     from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
     from graphkin.classroom.grading.kept_marks import KEPT_MARKS, kept_marks
@@ -327,7 +331,7 @@ def desk_lines(desk: DeskDecided, words: Words) -> Iterator[str]:
 
 def is_read(answers: Path) -> bool:
     """Whether the answers are a folder of drawings that graphkin read."""
-    from graphkin.reading.kept_readings import READING
+    from graphkin.reading.settled_points import READING
 
     return answers.is_dir() and any(answers.glob(f"*{READING}"))
 

@@ -1,7 +1,11 @@
-"""The command line: the commands list, check, explain and solve, and the group of all commands."""
+"""The command line: the commands list, check, explain and solve, and the group of all commands.
+
+The command about the languages of the pages: words.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -19,6 +23,7 @@ from graphkin.cli.options import (
     scene_argument,
     tell,
 )
+from graphkin.text import LANGUAGES
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -35,20 +40,20 @@ LATER = {
     "sheet": "graphkin.cli.draw_commands:sheet",
     "cycle": "graphkin.cli.draw_commands:cycle",
     "accuracy": "graphkin.cli.draw_commands:accuracy",
-    "export": "graphkin.cli.export_command:export",
-    "print": "graphkin.cli.print_command:print_sheets",
+    "export": "graphkin.cli.exchange_commands:export",
+    "print": "graphkin.cli.paper_commands:print_sheets",
     "grade": "graphkin.cli.grade_command:grade",
-    "read": "graphkin.cli.read_command:read",
-    "desk": "graphkin.cli.read_command:desk",
+    "read": "graphkin.cli.paper_commands:read",
+    "desk": "graphkin.cli.paper_commands:desk",
     "quiz": "graphkin.cli.class_commands:quiz",
     "new": "graphkin.cli.class_commands:new",
     "variants": "graphkin.cli.class_commands:variants",
     "ranges": "graphkin.cli.class_commands:ranges",
-    "import": "graphkin.cli.import_command:import_scene",
-    "studio": "graphkin.cli.studio_command:studio",
-    "manual": "graphkin.cli.manual_command:manual",
-    "help": "graphkin.cli.manual_command:help_on",
-    "words": "graphkin.cli.words_command:words",
+    "import": "graphkin.cli.exchange_commands:import_scene",
+    "studio": "graphkin.cli.page_commands:studio",
+    "manual": "graphkin.cli.page_commands:manual",
+    "help": "graphkin.cli.page_commands:help_on",
+    "words": "graphkin.cli.main:words",
 }
 """The commands of other modules, as ``module:function``."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
@@ -139,7 +144,7 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     from graphkin.text.errors import StructureError
 
     if paths.name_of(name) == HOUSE and paths.is_file(name):
-        from graphkin.cli.report.house_report import house_lines
+        from graphkin.cli.report.check_report import house_lines
 
         tell(house_lines(read_house(name)))
         return
@@ -350,7 +355,7 @@ def by_pencil(
     """The errors of a drawing made with a pencil, as a record and as lines; prints warnings."""
     from graphkin.accuracy.pencil import Pencil, forecast, original
     from graphkin.cli.report.pencil_report import pencil_lines, pencil_record, warnings
-    from graphkin.documents.force_sheets import with_force_plan
+    from graphkin.documents.force_fields import with_force_plan
 
     found = forecast(original(*with_force_plan(mechanism, drawn_at)), Pencil(millimetres))
     for warning in warnings(found):
@@ -416,3 +421,60 @@ def doubts(
     if verdict is not None and not verdict.agrees:
         complain(f"the independent check {verdict_words(verdict, scene)}")
     return flat or verdict is None or not verdict.agrees or unsure
+
+
+@click.command()
+@click.argument("language", type=click.Choice(LANGUAGES), required=False)
+@click.option(
+    "--missing",
+    is_flag=True,
+    help="Print the sentences that the language does not have yet, in English, as TOML.",
+)
+def words(language: str | None, missing: bool) -> None:
+    """List the languages of sheets and pages, and the sentences that one of them lacks.
+
+    A sentence that a language lacks is in English on its pages. To translate it, add it to the file
+    of the language, graphkin/text/LANGUAGE.toml. Translations of error messages are in
+    graphkin/text/problems/LANGUAGE.toml; the English message is the key.
+
+    \b
+    Examples:
+      graphkin words
+      graphkin words de --missing
+    """
+    if missing and language is None:
+        raise click.UsageError("--missing: name a language", click.get_current_context())
+    if missing and language is not None:
+        tell(missing_lines(language))
+    else:
+        tell(line_of(each) for each in ([language] if language else LANGUAGES))
+
+
+def line_of(language: str) -> str:
+    """A language, its name, and how many sentences and messages it has."""
+    from graphkin.text import ENGLISH, keys, untranslated
+    from graphkin.text import words as spoken
+    from graphkin.text.problems import translations
+
+    every, name = len(keys()), spoken(language)("language")
+    has = every - len(untranslated(language))
+    said = f"{language}  {name:10} {has} of {every} sentences"
+    if language == ENGLISH:
+        return said
+    known = {template for each in LANGUAGES for template in translations(each)}
+    return f"{said}, {len(translations(language))} of {len(known)} error messages"
+
+
+def missing_lines(language: str) -> Iterator[str]:
+    """The missing sentences in English as TOML, table by table."""
+    import json
+
+    from graphkin.text import untranslated
+
+    table = ""
+    for key, said in untranslated(language).items():
+        own, _, last = key.rpartition(".")
+        if own != table:
+            table = own
+            yield f"[{table}]"
+        yield f"{json.dumps(last)} = {json.dumps(said, ensure_ascii=False)}"

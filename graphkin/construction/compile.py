@@ -1,25 +1,31 @@
-"""From groups to the program: all positions, then all velocities, then accelerations and poles."""
+"""From groups to the program: all positions, then all velocities, then accelerations and poles.
+
+The vectors of the requested points: arrows from the pole, and on the mechanism.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
-from graphkin.construction import asked
 from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
-from graphkin.construction.centres.acceleration_poles import draw_pole
-from graphkin.construction.centres.instant_centre import draw_centre
+from graphkin.construction.centres.instant_centre import draw_centre, draw_pole
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
-from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Program
-from graphkin.construction.core.vocabulary import coordinate
+from graphkin.construction.core.palette import TRANSFER, Move, vector_at_point
+from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.program import Part, Plane, PlanVector, Program
+from graphkin.construction.core.quantities import CENTRES, MOTION, names_asked
+from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
-from graphkin.construction.plan import omega_of
-from graphkin.scene.link_points import point_of
+from graphkin.construction.plan import Plan, omega_of
+from graphkin.construction.velocity.image_of_link import image_under
+from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.plane import Vector
+from graphkin.scene.link_points import ends_of, point_of
 from graphkin.scene.model import Scene
 from graphkin.structure.groups import (
     CamFollower,
@@ -207,7 +213,7 @@ def write_plan(pen: Pen, standing: Standing, images: GroupImages) -> None:
     for link in pen.scene.links.values():
         if link.slides:
             images.sliding(pen, link.name)
-    asked.show(pen, plan, tips(pen, standing))
+    show_asked(pen, plan, tips(pen, standing))
 
 
 def in_plan(images: GroupImages, pen: Pen, group: Group, found: tuple[Base, ...]) -> None:
@@ -245,3 +251,52 @@ def draw_centres(pen: Pen, bases: Sequence[Base]) -> None:
         from graphkin.construction.centres.path_curvature import draw_curvature
 
         draw_curvature(pen, point_of(pen.scene, name))
+
+
+@action("set-on", move=Move(TRANSFER, vector_at_point))
+def set_on(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
+    """A velocity of the plan, set on the mechanism at its point."""
+    return Vector(point, point + (image - o) * seconds)
+
+
+@action("set-on-twice", move=Move(TRANSFER, vector_at_point))
+def set_on_twice(point: Point, o: Point, image: Point, seconds: Real) -> Vector:
+    """An acceleration of the plan, set on the mechanism at its point."""
+    return Vector(point, point + (image - o) * (seconds * seconds))
+
+
+SET_ON = {"velocity": set_on, "acceleration": set_on_twice}
+"""The action that sets a vector of each plan on the mechanism."""
+
+
+def show_asked(pen: Pen, plan: Plan, tips: Iterable[str]) -> None:
+    """Draw the vectors of driven tips and requested points, on the mechanism and in the plan.
+
+    The centres of points follow from these vectors.
+    """
+    centres = (each for each in CENTRES if each.whose == "points")
+    names = names_asked(pen.scene.ask, MOTION[plan.quantity], *centres)
+    asked = [constructed(pen, name, plan) for name in names]
+    for point in asked:
+        if pen.the(plan.quantity, point) != pen.pole(plan.plane):  # a fixed point has no arrow
+            plan.arrows(pen, point)
+    for point in dict.fromkeys((*tips, *asked)):
+        ends = pen.the("position", point), pen.pole(plan.plane), pen.the(plan.quantity, point)
+        with pen.on(plan.part, Plane.MECHANISM):
+            vector = PlanVector(plan.letter, letter(point))
+            pen.vector(SET_ON[plan.quantity], *ends, pen.seconds(), of=vector)
+
+
+def constructed(pen: Pen, name: str, plan: Plan) -> str:
+    """The point that a name asks about, with its image found: A for A@3 where link 3 owns A."""
+    point, link = ends_of(name)
+    if not link:
+        return name
+    owned = point in pen.scene.link(link).points
+    if not pen.has("position", name):
+        pen.want("position", name, pen.the("position", point))
+    if not pen.has(plan.quantity, name):
+        number = image_under(pen, link, point, plan)
+        if not pen.has(plan.quantity, name):
+            pen.want(plan.quantity, name, number)
+    return point if owned else name

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping
 from itertools import takewhile
 from typing import Any, ClassVar
 
-from graphkin.construction.core.arrows import has_arrow
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
@@ -21,11 +20,17 @@ from graphkin.construction.core.component import (
 )
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import ByHand, Slip, Wording, construction
-from graphkin.construction.core.naming import NAUGHT, plan_amount, rate_symbol, vector_of, way_of
+from graphkin.construction.core.naming import (
+    NAUGHT,
+    laid_off_words,
+    plan_amount,
+    rate_symbol,
+    vector_of,
+    way_of,
+)
 from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
-from graphkin.construction.core.pen import PRIME, Pen, letter
-from graphkin.construction.core.plan_vector import PlanVector, foot_of, plan_vector
-from graphkin.construction.core.program import Effect, Part, Plane
+from graphkin.construction.core.pen import PRIME, Pen, has_arrow, letter
+from graphkin.construction.core.program import Effect, Part, Plane, PlanVector, foot_of, plan_vector
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -36,7 +41,6 @@ from graphkin.construction.core.relation import (
     set_length,
     twice_set,
 )
-from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import (
     action,
     join,

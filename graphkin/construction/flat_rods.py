@@ -15,7 +15,7 @@ from graphkin.numbers.arithmetic import FLOAT
 from graphkin.scene.model import Scene, Side
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Group, Tie
-from graphkin.structure.parallel_bars import parallel_sets
+from graphkin.structure.joints import parallel_sets
 
 FLAT = 1e-6
 """Sine of a crossing below which a rod counts as flat."""

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import Touch
-from graphkin.construction.guides.rails import REACH, Rail, rails_of
 from graphkin.construction.guides.slide_symbols import STROKE, draw_frame_guides, merged, within
+from graphkin.construction.links.link_shapes import REACH, Rail, rails_of
 from graphkin.construction.links.wheel_symbols import track, track_ends
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent

@@ -8,8 +8,16 @@ from contextlib import AbstractContextManager
 from msgspec import Struct
 
 from graphkin.construction.acceleration import turned_acceleration
-from graphkin.construction.core.arrows import acceleration_arrow, velocity_arrows
-from graphkin.construction.core.pen import PRIME, Pen, about, against, image_name, letter
+from graphkin.construction.core.pen import (
+    PRIME,
+    Pen,
+    about,
+    acceleration_arrow,
+    against,
+    image_name,
+    letter,
+    velocity_arrows,
+)
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, MOTION, PLANES, RATE, SLIDING
 from graphkin.construction.velocity import turned_velocity

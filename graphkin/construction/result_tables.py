@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import drawn_in, sense, way_of
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.naming import drawn_in, segment_of, sense, way_of
+from graphkin.construction.core.program import plan_vector
 from graphkin.construction.core.quantities import FORCE, RATES, OnPaper, in_mm, names_asked
 from graphkin.construction.core.relation import value_of
-from graphkin.construction.core.segments import segment_of
 from graphkin.drawing.columns import HEIGHT, ColumnTable, laid_out, on_sheets
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
@@ -160,7 +159,7 @@ def tables_on_sheets(
 def result_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     """The tables of a sheet that have rows: vectors, turning of links, sliding of blocks."""
     if drawing.kind == FORCE:
-        from graphkin.construction.forces.force_tables import force_tables
+        from graphkin.construction.forces.force_drawing import force_tables
 
         return force_tables(drawing, empty=empty)
     words = drawing.words

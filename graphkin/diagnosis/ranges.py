@@ -178,7 +178,7 @@ def sought(scene: Scene, number: int) -> ClosingRanges:
     """The positions of one driver at which the whole mechanism can be drawn."""
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
-    from graphkin.motion.period import wheels
+    from graphkin.motion.turns_followed import wheels
     from graphkin.text.errors import GraphkinError
 
     course = Course(swept(scene, number), scene.branches)
@@ -279,8 +279,7 @@ def swept(scene: Scene, number: int) -> Sweep:
     A cylinder stays on the side of zero on which the scene has it.
     """
     from graphkin.motion.driving import reach_of, stated_motion
-    from graphkin.motion.sweep import sweep_of
-    from graphkin.motion.window import on_one_side
+    from graphkin.motion.sweep import on_one_side, sweep_of
 
     driver = scene.drivers[number - 1]
     if driver.kind == "turn":

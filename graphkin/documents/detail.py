@@ -14,10 +14,9 @@ from graphkin.construction.centres.relative_centre import RelativeCentre
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import centre
+from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.paper_canvas import DOT, WITHIN, ring
-from graphkin.construction.core.segments import TINY
-from graphkin.construction.guides.rails import places_of
-from graphkin.construction.links.link_shapes import corners_of, farthest
+from graphkin.construction.links.link_shapes import corners_of, farthest, places_of
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.free_space import FreeDisc, Space
 from graphkin.drawing.labels import (

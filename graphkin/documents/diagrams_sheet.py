@@ -816,7 +816,7 @@ def force_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     cycle, given = found.cycle, found.cycle.scene.forces
     if given is None or not given.asked:
         return []
-    from graphkin.motion.forces_along import forces_along
+    from graphkin.motion.cycle import forces_along
 
     known = []
     for u in (at, fine):

@@ -7,6 +7,8 @@ guides, or on the line of two joints of a link. Anything else is refused, never 
 
 PMKS+ reads whole revolutions per minute, then a time step, and no further number. The third number
 is the exact speed, for a reader that wants it.
+
+What of a scene another program has joints and links for.
 """
 
 from __future__ import annotations
@@ -17,12 +19,73 @@ from math import floor, pi
 from string import ascii_lowercase, ascii_uppercase, digits
 
 from graphkin.construction.core.drawn_scene import METRES
-from graphkin.documents import known_joints
-from graphkin.documents.known_joints import along, not_cranks
 from graphkin.mechanism import Mechanism
-from graphkin.scene.model import FRAME, Link, Scene
-from graphkin.structure.link_axes import guide_line
-from graphkin.text.errors import NO_WORDS, Hint, PageError, Problem, message
+from graphkin.scene.model import FRAME, Link, Scene, Slide
+from graphkin.structure.link_axes import body, guide_line, metres
+from graphkin.text.errors import NO_WORDS, Hint, Message, PageError, Problem, message
+
+LEAST = 1e-9
+"""The distance (m) under which a joint is on a guide."""
+
+
+def without_counterpart(
+    scene: Scene, program: str, hint: Hint, *, moving_guides: bool
+) -> Iterator[Problem]:
+    """A problem for each link with more than pins, blocks of one pin, and straight guides."""
+    for link in scene.links.values():
+        place = f"links.{link.name}"
+        if link.has_wheels or link.cam or link.profiles:
+            yield Problem(
+                place,
+                message("{program} has no wheels, cams or profiles", program=program),
+                message("pins and guides"),
+                hint,
+            )
+        if link.slides and (len(link.points) > 1 or len(link.slides) > 1):
+            yield Problem(
+                place,
+                message(
+                    "{program} has no block with more than one point or guide", program=program
+                ),
+                message("a block with one pin on one guide"),
+                hint,
+            )
+        elif any(slide.on != FRAME for slide in link.slides) and not moving_guides:
+            found = message("{program} has no guide that moves", program=program)
+            yield Problem(place, found, message("a guide on the frame"), hint)
+        elif any(slide.on != FRAME and len(along(scene, slide)) < 2 for slide in link.slides):
+            yield Problem(
+                place,
+                message(
+                    "{program} moves a guide only along two joints of its link", program=program
+                ),
+                message("a guide along two points, without offset"),
+                hint,
+            )
+
+
+def not_cranks(scene: Scene) -> list[Message]:
+    """What is wrong with the drivers where each must turn a link about a fixed pin."""
+    fixed = {*scene.frame.points}
+    return [
+        message("{driver} turns no crank about a fixed pin", driver=f"drivers.{number}")
+        for number, driver in enumerate(scene.drivers, 1)
+        if driver.kind != "turn"
+        or driver.against != FRAME
+        or not {*scene.link(driver.link).points} & fixed
+    ]
+
+
+def along(scene: Scene, slide: Slide) -> tuple[str, ...]:
+    """The two points of a link between which a guide runs; none where there are fewer."""
+    if metres(scene, slide.offset):
+        return ()
+    if slide.along:
+        return slide.along
+    line, points = guide_line(scene, slide), body(scene, slide.on)
+    on = [p for p, z in points.items() if abs(((z - line.point) / line.along).imag) < LEAST]
+    return (on[0], on[-1]) if len(on) > 1 and points[on[0]] != points[on[-1]] else ()
+
 
 PROGRAM = "PMKS+"
 ALPHABET = f"{digits}{ascii_uppercase}{ascii_lowercase}_-"
@@ -57,7 +120,7 @@ def pmks_file(mechanism: Mechanism, hint: Hint = NO_WORDS) -> bytes:
 
 def unknown(scene: Scene, hint: Hint) -> Iterator[Problem]:
     """The problems of a scene that PMKS+ does not support."""
-    yield from known_joints.unknown(scene, PROGRAM, hint, moving_guides=True)
+    yield from without_counterpart(scene, PROGRAM, hint, moving_guides=True)
     if len(scene.drivers) != 1 or not_cranks(scene):
         yield Problem(
             "drivers",

@@ -9,12 +9,12 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.bare_plan import bare_plan, is_point
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.naming import scale_of
 from graphkin.construction.core.paper_canvas import EDGE, above_foot, clipped_path
 from graphkin.construction.core.relation import figure
+from graphkin.construction.step_marks import bare_plan, is_point
 from graphkin.documents.composing import STILL_LARGER
 from graphkin.documents.diagram_numbers import calm
 from graphkin.documents.positions import (

@@ -19,14 +19,19 @@ from graphkin.construction.core.layout import centre
 from graphkin.construction.core.naming import angle_symbol, length_scale
 from graphkin.construction.core.paper_canvas import above_foot, clipped_path
 from graphkin.construction.frame_over_motion import standing, travelling
-from graphkin.construction.guides.rails import places_of, rails_of
-from graphkin.construction.links.link_numbers import settle_in_plates
-from graphkin.construction.links.link_shapes import corners_of, farthest, is_all_wheel
+from graphkin.construction.links.link_shapes import (
+    corners_of,
+    farthest,
+    is_all_wheel,
+    places_of,
+    rails_of,
+)
 from graphkin.construction.links.mechanism_symbols import (
     draw_bars,
     draw_ground,
     draw_pins,
     draw_plates,
+    settle_in_plates,
 )
 from graphkin.documents.positions import (
     Position,

@@ -16,8 +16,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 from msgspec.json import encode, format
 
 from graphkin.construction.core.drawn_scene import METRES
-from graphkin.documents.known_joints import along, not_cranks, unknown
-from graphkin.documents.pmks_file import pmks_file
+from graphkin.documents.pmks_file import along, not_cranks, pmks_file, without_counterpart
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Slide
 from graphkin.structure.link_axes import guide_line
@@ -121,7 +120,7 @@ class SentMechanism:
 
     def __init__(self, mechanism: Mechanism, program: str, *, moving_guides: bool) -> None:
         scene = mechanism.scene
-        refused = [*unknown(scene, program, NO_WORDS, moving_guides=moving_guides)]
+        refused = [*without_counterpart(scene, program, NO_WORDS, moving_guides=moving_guides)]
         refused += [Problem("drivers", found, message("cranks")) for found in not_cranks(scene)]
         if refused:
             raise PageError(refused)

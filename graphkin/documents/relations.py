@@ -1,6 +1,10 @@
 """The relations of the calculation in the order of the work, read off the steps.
 
 They cover lengths laid off, lengths found by crossing lines, and lengths that follow from others.
+
+The vector equations of a plan: motions about pins and along guides, and given motions.
+
+A vector that is computed and laid off, not found by a crossing, is given with its value.
 """
 
 from __future__ import annotations
@@ -13,17 +17,18 @@ from msgspec.structs import replace
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.cams.cam_relations import of_cams
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import GivenVector, construction
 from graphkin.construction.core.link_poses import Disc
-from graphkin.construction.core.naming import drawn_in, scale_of, sense
-from graphkin.construction.core.plan_vector import plan_vector, sign_of
-from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.naming import drawn_in, scale_of, segment_of, sense
+from graphkin.construction.core.program import Part, Step, plan_vector, sign_of
 from graphkin.construction.core.quantities import BY_TARGET, FORCE, Whose, names_asked
 from graphkin.construction.core.relation import (
     Relation,
+    VectorEquation,
     answer,
     as_read,
     length_laid_off,
@@ -31,7 +36,6 @@ from graphkin.construction.core.relation import (
     put_in,
     value_of,
 )
-from graphkin.construction.core.segments import segment_of
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.drivers.driver_relations import KA, laid_bars, of_driver, of_scales
 from graphkin.construction.higher_class.divided_point import SHARE
@@ -40,7 +44,7 @@ from graphkin.construction.links.plate_points import of_rolled_turns
 from graphkin.construction.rate_relations import by_radius, of_slides, of_sum, of_turning
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.result_tables import slide_sense, slides_asked
-from graphkin.construction.vector_equations import is_laid_off, of_equations
+from graphkin.construction.velocity.relative_motion import as_relation
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Ratio, Vector
@@ -66,6 +70,58 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.pairs import Sliding
 from graphkin.text import Words
+
+
+def of_equations(drawing: Drawing) -> list[tuple[str, Relation]]:
+    """The equations of a plan in drawing order, each once, with the rate that it uses."""
+    found: dict[object, tuple[str, Relation]] = {}
+    for number, step, _ in drawing.steps(drawing.plane):
+        if (plan := auxiliary_plan(drawing, number)) and plan.repeats:
+            continue
+        kind = construction(step)
+        for relation in kind.equations(drawing, step.role) if kind else ():
+            taken = ""
+            if isinstance(kind, GivenVector) and relation.symbols:
+                taken = kind.rate_taken(drawing, step.role)
+            said = relation.equation or relation.left + relation.symbols
+            found.setdefault(said, (taken, relation))
+    return joined(list(found.values()))
+
+
+def joined(found: list[tuple[str, Relation]]) -> list[tuple[str, Relation]]:
+    """The list with the equations for one vector merged, at the place of the last one.
+
+    Equations for the same vector are chained. An equation for a summand of a known vector is
+    substituted.
+    """
+    rest: dict[str, tuple[str, Relation]] = {}
+    for taken, relation in found:
+        equation = relation.equation
+        if equation is None:
+            rest[relation.left + relation.symbols] = taken, relation
+            continue
+        for name in unknown_in(equation):
+            _, before = rest.pop(name, ("", None))
+            if before is not None and before.equation is not None:
+                equation = equation.joined_to(before.equation)
+        is_known = equation.whole.known == 2 and bool(equation.sums)
+        rest[equation.markup if is_known else equation.whole.symbol] = taken, as_relation(equation)
+    return list(rest.values())
+
+
+def unknown_in(equation: VectorEquation) -> list[str]:
+    """The vectors of points that an equation helps to find: the whole vector, or a summand."""
+    found = [term.symbol for terms in equation.sums for term in terms if not term.known]
+    return found if equation.whole.known == 2 else [equation.whole.symbol, *found]
+
+
+def is_laid_off(drawing: Drawing, step: Step) -> bool:
+    """Whether a component was computed and laid off, not found by the plan."""
+    kind = sign_of(step)
+    if kind in ("ν", "c"):
+        return True
+    tip = drawing.trace.program.steps[step.args[1]]
+    return kind == "τ" and tip.role == "image" and isinstance(construction(tip), TurnedAcceleration)
 
 
 def of_structure(drawing: Drawing) -> Iterator[Relation]:
@@ -229,7 +285,7 @@ def ends_on(drawing: Drawing, p: str, q: str) -> frozenset[complex]:
 def sections_of(drawing: Drawing) -> list[Section]:
     """The sections of one sheet."""
     if drawing.kind == FORCE:
-        from graphkin.documents.force_sentences import force_relations
+        from graphkin.documents.sentences import force_relations
 
         return force_relations(drawing)
     plan = list(of_plan(drawing))
@@ -396,7 +452,7 @@ def of_centres(drawing: Drawing, whose: Whose = "links") -> Iterator[Relation]:
 def answers(drawing: Drawing) -> Iterator[Relation]:
     """What [ask] asks of a sheet, without how it follows."""
     if drawing.kind == FORCE:
-        from graphkin.construction.forces.force_tables import forces_asked
+        from graphkin.construction.forces.force_drawing import forces_asked
 
         yield from forces_asked(drawing)
         return

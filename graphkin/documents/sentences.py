@@ -1,29 +1,50 @@
-"""The construction in words: one numbered sentence for each point that is found, in order."""
+"""The construction and the plan of forces in words, and the line about the flattest crossing."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from collections.abc import Set as AbstractSet
+from itertools import product
+from math import degrees
 from typing import NamedTuple
 
 from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import set_before
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
-from graphkin.construction.core.component import Component, component_ending_at, component_of
+from graphkin.construction.core.auxiliary_plan import auxiliary_plan, falls_on_sources
+from graphkin.construction.core.component import (
+    Component,
+    TriangleComponent,
+    component_ending_at,
+    component_of,
+    is_hidden,
+)
+from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.given_data import Datum, of_driver
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
+from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.pen import PRIME, image_name
-from graphkin.construction.core.plan_vector import is_set_on, plan_vector
-from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.quantities import FORCE
-from graphkin.construction.core.relation import beside_plan
-from graphkin.construction.core.segments import TINY
+from graphkin.construction.core.program import Part, Plane, Step, is_set_on, plan_vector
+from graphkin.construction.core.quantities import FORCE, number_of, quantity_text
+from graphkin.construction.core.relation import Relation, answer, beside_plan
+from graphkin.construction.forces.force_drawing import ForceDrawing
+from graphkin.construction.forces.loads import (
+    InertiaForce,
+    InertiaMoment,
+    Weight,
+    load_names,
+    moment_name,
+)
+from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.links.idle_links import idle_sentences
 from graphkin.construction.rate_relations import finds_rates
 from graphkin.construction.registry import TOGETHER
-from graphkin.construction.step_sentences import point_sentence
-from graphkin.drawing.symbol_markup import escape, symbol
+from graphkin.construction.step_marks import point_sentence
+from graphkin.drawing.marks import Mark, Text
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import bar, escape, symbol, without_index
+from graphkin.scene.forces import ByDriver, Directed, Load, Size
 from graphkin.scene.link_points import ends_of, lettered
 from graphkin.text.markup import AND, names_in
 
@@ -102,8 +123,6 @@ def sentences(drawing: Drawing) -> list[Sentence]:
 def unexplained(drawing: Drawing) -> list[Sentence]:
     """The sentences of a sheet without the meanings of indices."""
     if drawing.kind == FORCE:
-        from graphkin.documents.force_sentences import force_sentences
-
         return force_sentences(drawing)
     found: list[Sentence] = []
     if drawing.again:
@@ -211,3 +230,209 @@ def is_found_point(drawing: Drawing, number: int, step: Step) -> bool:
         wanted = Part.CENTRE if drawing.kind == "velocity" else Part.POLE
         return step.part in (Part.POSITION, wanted) and step.name not in drawing.scene.fixed_points
     return step.plane is drawing.plane and not isinstance(construction(step), PlanPole)
+
+
+HEIGHT = 2.5
+"""Height of the lettering in mm."""
+APART = 2.5
+"""Room in mm between this line and the text before it."""
+BESIDE = 22.0
+"""Distance in mm of the line's end from the title block, clear of the centring mark."""
+OWN = {
+    "velocity": (Part.POSITION, Part.VELOCITY, Part.CENTRE),
+    "acceleration": (Part.POSITION, Part.NORMAL, Part.ACCELERATION, Part.POLE),
+    FORCE: (Part.FORCE,),
+}
+"""The parts of the work that are drawn on each sheet."""
+
+
+def flattest_line(drawing: Drawing, start: float) -> Iterator[Mark]:
+    """The flattest crossing of a sheet, its angle, and the effect of a millimetre of pencil error.
+
+    ``start`` is where the free room begins, in mm. Where the room is too short, the name is
+    shortened, then the effect is left out. Empty where no lines cross. Crossings drawn on the sheet
+    before this one are not counted again.
+    """
+    worst = flattest(crossings_on(drawing))
+    if worst is None:
+        return
+    paper = drawing.paper
+    end = paper.left[2] if paper.is_leaf else paper.tables[0] - BESIDE
+    forms = "page.flattest", "page.flattest_angle"
+    for form, name in product(forms, names_of_crossing(drawing, worst)):
+        text = drawing.words(
+            form,
+            name=name,
+            angle=drawing.words.fixed(degrees(worst.angle), 0),
+            factor=drawing.words.significant(worst.factor, 2),
+        )
+        if end - extent(text, HEIGHT)[0] >= start + APART:
+            yield Text(end, paper.below[3] + 0.4, text, "caption", HEIGHT, "end", name="flattest")
+            return
+
+
+def crossings_on(drawing: Drawing) -> tuple[Crossing, ...]:
+    """The lettered crossings that a sheet itself draws and uses."""
+    parts = [part for part in OWN[drawing.kind] if not (drawing.again and part is Part.POSITION)]
+    return tuple(
+        crossing
+        for crossing in crossings(drawing.trace)
+        if crossing.name and crossing.part in parts and crossing.number in drawing.trace.values
+        if not falls_on_sources(drawing, crossing.number)
+        if not is_hidden(drawing, crossing.number)
+    )
+
+
+def group_closed(drawing: Drawing, crossing: Crossing) -> ClosedGroup | None:
+    """The group of higher class that a crossing closes; None for any other crossing."""
+    kind = construction(drawing.trace.program.steps[crossing.number])
+    return kind if isinstance(kind, ClosedGroup) else None
+
+
+def is_gap(drawing: Drawing, crossing: Crossing) -> bool:
+    """Whether two loci close a group where they are a bar apart, rather than where they cross."""
+    group = group_closed(drawing, crossing)
+    return group is not None and len(group.traced) > 1
+
+
+def names_of_crossing(drawing: Drawing, crossing: Crossing) -> tuple[str, str]:
+    """Markup of the name of a crossing, and a shorter form.
+
+    The name is the letter as drawn. A crossing that closes a group has the letter of its locus. A
+    triangle whose corners no sentence names is called by its component.
+    """
+    group, step = group_closed(drawing, crossing), drawing.trace.program.steps[crossing.number]
+    kind, letter = construction(step), step.name or crossing.name
+    if group is not None and group.locus:
+        letter = group.locus
+    elif isinstance(kind, TriangleComponent):
+        letter = kind.letter(drawing, step.role)
+        if not any(drawing.symbol(letter) in said.markup for said in sentences(drawing)):
+            return (drawing.words("page.crossing_for", a=kind.symbol(drawing)),) * 2
+    return drawing.symbol(letter), drawing.symbol(without_index(letter))
+
+
+def force_sentences(drawing: Drawing) -> list[Sentence]:
+    """The sentences of the plan of forces, in the order of the work."""
+    found = [Sentence(-1, "again", drawing.words("step.force-again"))]
+    for number, step in enumerate(drawing.trace.program.steps):
+        kind = construction(step)
+        if step.part is not Part.FORCE or kind is None or number not in drawing.trace.values:
+            continue
+        if said := kind.sentence_alone(drawing, step.role):
+            found.append(Sentence(number, step.role, said))
+    return found
+
+
+def force_relations(drawing: Drawing) -> list[tuple[str, list[Relation]]]:
+    """The relations of the plan of forces: those of the loads, then those of the reactions."""
+    loads: list[Relation] = []
+    others: list[Relation] = []
+    for number, step in enumerate(drawing.trace.program.steps):
+        kind = construction(step)
+        if step.part is Part.FORCE and kind is not None and number in drawing.trace.values:
+            own = loads if isinstance(kind, InertiaForce | InertiaMoment | Weight) else others
+            own += kind.equations(drawing, step.role)
+    return [("loads", list(dict.fromkeys(loads))), ("forces", list(dict.fromkeys(others)))]
+
+
+def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
+    """The motion of drivers, masses, moments of inertia, gravity and loads as data."""
+    scene, words = drawing.scene, drawing.words
+    forces = scene.forces
+    assert forces is not None
+    found = [
+        piece
+        for driver in scene.drivers
+        for piece in of_driver(scene, words, driver, solved=solved, laws=True)
+    ]
+    remarks = []
+    for link, mass in forces.masses.items():
+        if mass.mass.is_zero():
+            continue
+        found.append(valued(f"m_{link}", quantity_text(scene, words, mass.mass)))
+        if mass.inertia is not None and not mass.inertia.is_zero():
+            found.append(valued(f"J_{link}", quantity_text(scene, words, mass.inertia)))
+        fields = {"k": escape(link), "s": symbol(mass.centre)}
+        remarks.append(Datum(words("page.centre_of_mass", **fields)))
+    if forces.gravity is not None:
+        pair = (number_of(scene, words, each) for each in forces.gravity)
+        found.append(Datum(name="*g*", value=f"{words.place(*pair)} m/s^2"))
+    for load, name in zip(forces.loads, load_names(forces.loads), strict=True):
+        if load.force is not None:
+            found += force_datum(drawing, load, name)
+        if load.moment is not None:
+            size = given_size(drawing, load.moment, moment_name(load, name), "N·m")
+            found.append(valued(moment_name(load, name), size))
+    for number, spring in enumerate(forces.springs, 1):
+        own = str(number) if len(forces.springs) > 1 else ""
+        ends = bar(*map(lettered, spring.ends))
+        found.append(
+            valued(f"c_{own}" if own else "c", quantity_text(scene, words, spring.stiffness))
+        )
+        found.append(valued(f"l_0{own}", quantity_text(scene, words, spring.free)))
+        remarks.append(Datum(words("page.spring", bar=ends, c=symbol(f"c_{own}" if own else "c"))))
+    return [*found, *remarks]
+
+
+def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
+    """A given force: its components, or its size with its direction."""
+    scene, words, force = drawing.scene, drawing.words, load.force
+    assert force is not None
+    if not isinstance(force, Directed):
+        x, y = (number_of(scene, words, each) for each in force)
+        yield valued(f"P_{name}", f"{words.place(x, y)} N")
+        return
+    size = given_size(drawing, force.size, f"P_{name}", "N")
+    if not force.sense:
+        yield valued(f"P_{name}", f"{size}, {quantity_text(scene, words, force.angle)}")
+        return
+    key = "step.force-along" if force.sense > 0 else "step.force-against"
+    v = symbol(f"v_{lettered(load.at)}")
+    yield Datum(words(key, p=symbol(f"P_{name}"), size=size, v=v))
+
+
+def given_size(drawing: Drawing, size: Size, name: str, unit: str) -> str:
+    """A given number with its unit; one of a table as it is in this position."""
+    if not isinstance(size, ByDriver):
+        return quantity_text(drawing.scene, drawing.words, size)
+    assert isinstance(drawing, ForceDrawing)
+    return f"{answer(drawing, drawing.by_table[name])} {unit}"
+
+
+def valued(name: str, value: str) -> Datum:
+    """A datum by the name of its symbol."""
+    return Datum(name=symbol(name), value=value)
+
+
+def forces_asked(drawing: Drawing) -> list[str]:
+    """The requests of a sheet of forces, in words."""
+    words, forces = drawing.words, drawing.scene.forces
+    assert forces is not None
+    found: list[str] = []
+    keys = (
+        ("ask.reactions", "ask.reactions_many", False),
+        ("ask.guide_reactions", "ask.guide_reactions_many", True),
+    )
+    for one, many, blocks in keys:
+        names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
+        if names:
+            symbols = (escape(n) if blocks else symbol(lettered(n)) for n in names)
+            mentioned = words("list_mark").join(symbols)
+            found.append(words(many if len(names) > 1 else one, list=mentioned))
+    if forces.balance:
+        lever = isinstance(drawing, ForceDrawing) and drawing.extents.lever is not None
+        found.append(words("ask.balance_lever" if lever else "ask.balance"))
+    return found
+
+
+def checked(drawing: Drawing) -> str:
+    """The line on the check of a sheet of forces."""
+    assert isinstance(drawing, ForceDrawing)
+    words = drawing.words
+    worst = words.significant(drawing.verdict.largest_difference, 2)
+    said = words("page.forces_verified", difference=worst)
+    for each in drawing.lever_balances():
+        difference = words.significant(each.difference(drawing), 2) if each.size(drawing) else "0"
+        said += "; " + words("page.lever_verified", difference=difference)
+    return said

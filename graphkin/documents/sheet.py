@@ -30,14 +30,13 @@ from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
-from graphkin.construction.links.link_numbers import settle_in_plates
+from graphkin.construction.links.mechanism_symbols import settle_in_plates
 from graphkin.construction.result_tables import tables
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.detail import insets, parted
-from graphkin.documents.flattest import flattest_line
 from graphkin.documents.listing import first_part, listed
 from graphkin.documents.scheme import scheme
-from graphkin.documents.sentences import sentences
+from graphkin.documents.sentences import flattest_line, sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.drawing.field import Rect, SheetPaper
 from graphkin.drawing.frame import (
@@ -204,7 +203,7 @@ def data_heading(
     data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
     if drawing.kind == FORCE:
-        from graphkin.documents.force_sentences import force_data
+        from graphkin.documents.sentences import force_data
 
         found = force_data(drawing, solved=view != "task")
     else:
@@ -821,7 +820,7 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
 def checked_line(drawing: Drawing) -> str:
     """The line on the difference of the independent route."""
     if drawing.kind == FORCE:
-        from graphkin.documents.force_sentences import checked
+        from graphkin.documents.sentences import checked
 
         return checked(drawing)
     worst = drawing.words.significant(drawing.verdict.largest_difference, 2)
@@ -870,7 +869,7 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
 def asked_words(drawing: Drawing) -> Sequence[str]:
     """The quantities that a sheet asks for, in words."""
     if drawing.kind == FORCE:
-        from graphkin.documents.force_sentences import forces_asked
+        from graphkin.documents.sentences import forces_asked
 
         return forces_asked(drawing)
     words, ask = drawing.words, drawing.scene.ask

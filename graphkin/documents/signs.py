@@ -17,8 +17,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import has_plan, scale_of
 from graphkin.construction.core.naming import sense as sense_word
 from graphkin.construction.drivers.driver_symbols import pivot_of
-from graphkin.construction.guides.rails import places_of
-from graphkin.construction.links.link_numbers import SHARES, Body, body_of, within
+from graphkin.construction.links.link_shapes import places_of
+from graphkin.construction.links.mechanism_symbols import SHARES, Body, body_of, within
 from graphkin.construction.result_tables import turning_links
 from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.free_space import Space

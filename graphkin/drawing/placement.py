@@ -12,8 +12,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import ArrayLike
 
-from graphkin.drawing.clashes import NO_PLACES, Clashes, OpenPlaces
-from graphkin.drawing.clearance import Clearance, Subjects, tries
+from graphkin.drawing.clearance import NO_PLACES, Clashes, Clearance, OpenPlaces, Subjects, tries
 from graphkin.drawing.shapes import NOWHERE, Box, Index, where
 
 NEAR = np.array([0.0, 0.6, 1.4, 2.8])  # mm beyond the gap, without a leader

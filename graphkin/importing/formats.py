@@ -92,7 +92,7 @@ def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
 
             return pylinkage_text(text)
         if MECH.search(text):
-            from graphkin.importing.old_pmks import mech_text
+            from graphkin.importing.pmks import mech_text
 
             return mech_text(text)
         from graphkin.importing.pmks import csv_text, new_text, old_text

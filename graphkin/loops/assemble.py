@@ -3,6 +3,8 @@
 Group after group takes the closure that the scene states. For each group, Newton's method searches
 for all closures from many starts, with the links before the group held fixed. The sides, ways and
 closure numbers in the scene select one of them; if they do not, the scene is refused as ambiguous.
+
+True mobility: the freedom that the constraints leave at a position, independent of any count.
 """
 
 from __future__ import annotations
@@ -39,9 +41,11 @@ from graphkin.loops.newton import (
     newton,
     scaled,
     settle,
+    start_values,
 )
 from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
 from graphkin.loops.rounding import PositionBounds
+from graphkin.numbers.arithmetic import Point
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import (
     GraphkinError,
@@ -572,3 +576,58 @@ def links_words(names: Sequence[str]) -> Message:
     if len(names) == 1:
         return message("link {name}", name=names[0])
     return message("links {names}", names=", ".join(names))
+
+
+SHARE = 1e-8
+"""Share of the largest singular value below which a direction is unconstrained."""
+
+
+FIRM = 1e-4
+"""Share of the largest singular value below which a direction may be rounding at a dead point."""
+
+
+def true_mobility(scene: Scene, positions: Mapping[str, Point] | None = None) -> int:
+    """Unknowns of the loop equations less the rank of their Jacobian without the drivers.
+
+    ``positions`` (m) must close the mechanism; the loops assemble what they leave open. Without
+    positions, closed positions are searched for, independent of the drivers, and the smallest
+    mobility counts. At a change point or another singular position the velocities have more freedom
+    than the motion, and so has this number. Raises StructureError as ``equations`` does,
+    WitnessError where nothing closes.
+    """
+    loops = equations(scene)
+    unknowns = position_of(scene, loops, positions)
+    return loops.unknown_count - rank(undriven_rows(loops, unknowns)[0]) - len(scene.cams)
+
+
+def undriven_rows(loops: Equations, unknowns: Reals) -> Reals:
+    """Jacobian of the loop equations without the drivers, in bars, at positions (M, K + m)."""
+    jacobian = loops.jacobian(loops.chains.at(unknowns), driven=False)
+    return np.asarray(jacobian * loops.columns[:, None, :] / loops.size[:, None, None])
+
+
+def firmness(rows: Reals) -> tuple[int, float]:
+    """The rank, and the smallest singular value counted in it as a share of the largest."""
+    values = np.linalg.svd(rows, compute_uv=False)
+    count = rank(rows)
+    return count, float(values[count - 1] / values[0]) if count else 0.0
+
+
+def rank(rows: Reals) -> int:
+    """The number of directions that the rows constrain."""
+    values = np.linalg.svd(rows, compute_uv=False)
+    return int(np.count_nonzero(values > SHARE * values.max(initial=0)))
+
+
+def position_of(scene: Scene, loops: Equations, positions: Mapping[str, Point] | None) -> Reals:
+    """The unknowns (1, K + m) at given positions, or at the least mobile of some closed positions.
+
+    Of several such positions, the one farthest from a singular position is taken.
+    """
+    if positions is None:
+        found = anywhere(loops)
+        firm = [firmness(rows) for rows in undriven_rows(loops, found)]
+        order = [(share > FIRM, count, share) for count, share in firm]
+        best = max(range(len(found)), key=order.__getitem__)
+        return found[best : best + 1]
+    return completed_start(scene, loops, start_values(loops, positions, {}))

@@ -19,8 +19,7 @@ from msgspec import Struct
 
 from graphkin.loops.equations import Equations, joined, part_of, tied_by
 from graphkin.loops.loop_motion import setting_of
-from graphkin.loops.parallels import spare_bars
-from graphkin.loops.rigid_bodies import Complexes, Reals
+from graphkin.loops.rigid_bodies import Complexes, Reals, spare_bars
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import StructureError
 

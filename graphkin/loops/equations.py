@@ -40,16 +40,17 @@ from graphkin.loops.no_slip import (
     turnings,
     waiting,
 )
-from graphkin.loops.parallels import Parallel, parallels
 from graphkin.loops.rigid_bodies import (
     Body,
     Complexes,
     Guide,
     Numbers,
+    Parallel,
     Reals,
     bodies_of,
     guides_of,
     longest,
+    parallels,
     unit,
 )
 from graphkin.numbers.arithmetic import Point, Real

@@ -13,8 +13,7 @@ import numpy as np
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.loops.parallels import Parallel
-from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Reals, radius, written_line
+from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Parallel, Reals, radius, written_line
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
 from graphkin.text.errors import Message, Problem, StructureError, message

@@ -21,7 +21,7 @@ from graphkin.construction.higher_class.following import (
 )
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
-from graphkin.motion.turns_counted import name_of
+from graphkin.motion.sweep import name_of
 from graphkin.motion.turns_followed import Followed, following, led
 from graphkin.scene.model import Closure
 from graphkin.text.errors import ClosureError, Problem, message

@@ -29,8 +29,7 @@ from graphkin.construction.higher_class.closure_solver import closer_of, closing
 from graphkin.construction.higher_class.following import FollowedClosure, GroupOnWay
 from graphkin.construction.links.rolled_turn import counted_link
 from graphkin.mechanism import Mechanism
-from graphkin.motion.sweep import Sweep, inputs
-from graphkin.motion.turns_counted import Turned
+from graphkin.motion.sweep import Sweep, Turned, inputs
 from graphkin.numbers.arithmetic import FLOAT, batch_kind
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.scene.model import Branch, Closure, Scene

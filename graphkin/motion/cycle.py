@@ -1,4 +1,7 @@
-"""A full turn of the driver, or its reachable ranges, as arrays."""
+"""A full turn of the driver, or its reachable ranges, as arrays.
+
+Reactions and the balance at every position of a cycle, with the lever as their check.
+"""
 
 from __future__ import annotations
 
@@ -10,17 +13,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from msgspec import Struct, field
 
-from graphkin.construction.core.kind import PlacesLink, construction
+from graphkin.construction.core.kind import PlacesLink, construction, constructions
 from graphkin.construction.core.program import Target
-from graphkin.construction.core.run import Trace
+from graphkin.construction.core.run import Trace, run_batch
 from graphkin.construction.core.solution import Solution, gathered, row_of, rows_of
+from graphkin.construction.forces.force_plan import force_program, undrawn
+from graphkin.construction.forces.lever import LeverBalance
+from graphkin.construction.forces.loads import is_asked
 from graphkin.motion.course import Flags, Reals, spread
 from graphkin.motion.driving import TURN
 from graphkin.motion.events import Singular, singulars
 from graphkin.motion.pieces import Path, Piece, reachable_ranges
-from graphkin.motion.sweep import Sweep, sweep_of
-from graphkin.motion.turns_counted import name_of
+from graphkin.motion.sweep import Sweep, name_of, sweep_of
+from graphkin.numbers.arithmetic import batch_kind
 from graphkin.numbers.plane import Ratio
+from graphkin.scene.forces import Forces
 from graphkin.scene.model import FRAME, Branch, Scene
 from graphkin.text.errors import (
     ClosureError,
@@ -35,7 +42,6 @@ from graphkin.text.errors import (
 if TYPE_CHECKING:
     from graphkin.construction.core.cam_profiles import CamProfile
     from graphkin.mechanism import Mechanism
-    from graphkin.motion.forces_along import ForcesAlong
 
 BESIDE = 1e-6
 """Distance from a singular position (degrees, mm or ms) within which a row has no values."""
@@ -141,8 +147,6 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         """The reactions and the balance that the scene asks, at every position."""
         if self.scene.forces is None or not self.scene.forces.asked:
             return None
-        from graphkin.motion.forces_along import forces_along
-
         return forces_along(self.pieces, self.piece, self.at, self.scene.forces)
 
     def slid(self, block: str) -> Reals:
@@ -450,3 +454,54 @@ def turns_left_open(found: Cycle) -> dict[str, Reals]:
             angle += TURN * np.round((float(near[name_of(target[1])]) - first) / TURN)
             turns[name_of(target[1])][rows] = np.interp(found.at[rows], at, angle)
     return turns
+
+
+class ForcesAlong(Struct, frozen=True, eq=False):
+    """The asked forces (N) and moments (N·m) at every position (N,), by their targets.
+
+    ``difference`` is that of the balance by Zhukovsky's lever from the one by the polygons, as a
+    share of the larger one; None without a lever.
+    """
+
+    values: Mapping[Target, Any]
+    difference: Any = None
+
+
+def forces_along(
+    pieces: Sequence[Piece], numbers: Reals, at: Reals, given: Forces
+) -> ForcesAlong | None:
+    """The forces that a scene asks at places ``at`` (N,), each in the piece of its number from 1.
+
+    None where the forces of a group are not drawn.
+    """
+    values: dict[Target, Any] = {}
+    difference: Any = None
+    for number, piece in enumerate(pieces, 1):
+        rows, course = np.flatnonzero(numbers == number), piece.course
+        if undrawn(course.scene, course.groups) is not None:
+            return None
+        program = force_program(course.scene, course.program, course.groups)
+        asked = [target for target in program.targets if is_asked(course.scene, given, target)]
+        levers = [*constructions(program, LeverBalance)]
+        keep = [program.targets[target] for target in asked]
+        keep += [n for each in levers for n in (of_lever(each), each.other)]
+        steps = program.behind(keep)
+        with np.errstate(all="ignore"):
+            trace = run_batch(program, steps, course.values(at[rows]), batch_kind(), keep)
+        for target in asked:
+            found = np.broadcast_to(trace.values[program.targets[target]], len(rows))
+            values.setdefault(target, np.full(len(at), np.nan, found.dtype))[rows] = found
+        for each in levers:
+            one, other = (trace.values[n] for n in (of_lever(each), each.other))
+            largest = np.maximum(abs(one), abs(other))
+            off = abs(one - other) / np.where(largest > 0, largest, 1.0)
+            difference = np.full(len(at), np.nan) if difference is None else difference
+            difference[rows] = off
+    return ForcesAlong(values, difference)
+
+
+def of_lever(balance: LeverBalance) -> int:
+    """The step of a balance by the lever: the moment of a crank, or the force on a block."""
+    number = balance.force if balance.moment is None else balance.moment
+    assert number is not None
+    return number

@@ -28,10 +28,9 @@ from graphkin.construction.core.quantities import (
 from graphkin.motion.course import PLACES, Flags, Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN, reach_of
-from graphkin.motion.ends import End
+from graphkin.motion.ends import End, last_closing
 from graphkin.motion.events import once_round
 from graphkin.motion.pieces import ALIKE
-from graphkin.motion.refine import last_closing
 
 FINE = 720
 """Samples in a turn of the driver, and in a range of a slide or of the time."""

@@ -13,9 +13,9 @@ from graphkin.construction.core.quantities import OMEGA
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at
 from graphkin.motion.driving import TURN
-from graphkin.motion.period import BACK
+from graphkin.motion.ends import crossings_of_zero
 from graphkin.motion.pieces import ALIKE, Range
-from graphkin.motion.refine import crossings_of_zero
+from graphkin.motion.turns_followed import BACK
 from graphkin.scene.model import Link, Scene
 
 FINE = 3600

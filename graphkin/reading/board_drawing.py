@@ -30,7 +30,7 @@ from graphkin.classroom.grading.feedback import (
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.construction.board import PLANES, Board, board_given, replayed
 from graphkin.drawing.field import A3, Field, SheetPaper, clipped
 from graphkin.drawing.marks import LineMark, Mark, Page, Text

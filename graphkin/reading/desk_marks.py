@@ -12,10 +12,10 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import OPEN, read_answer
-from graphkin.classroom.grading.appeals import Appeal, read_appeals
 from graphkin.classroom.grading.decisions import AMOUNT, LONGEST, with_decisions
 from graphkin.classroom.grading.desk_rulings import (
     AnyRuling,
+    Appeal,
     DeskAct,
     DeskRulings,
     LeaveMark,
@@ -23,6 +23,7 @@ from graphkin.classroom.grading.desk_rulings import (
     ReadAs,
     Remark,
     SetPoints,
+    read_appeals,
 )
 from graphkin.classroom.grading.feedback import (
     COLUMNS,
@@ -34,7 +35,7 @@ from graphkin.classroom.grading.feedback import (
 )
 from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
 from graphkin.classroom.grading.kept_marks import KeptReport
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 from graphkin.reading.desk_queue import DeskItem, DeskQueue
 from graphkin.studio.session import PageRequestError
 from graphkin.text import Words

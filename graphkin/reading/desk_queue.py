@@ -13,9 +13,15 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import OPEN, beyond_number, rounding, shown_cell
-from graphkin.classroom.grading.appeals import Appeal
 from graphkin.classroom.grading.class_report import copies_words, wrong_variant_words
-from graphkin.classroom.grading.desk_rulings import AnyRuling, LeaveMark, Place, ReadAs, SetPoints
+from graphkin.classroom.grading.desk_rulings import (
+    AnyRuling,
+    Appeal,
+    LeaveMark,
+    Place,
+    ReadAs,
+    SetPoints,
+)
 from graphkin.classroom.grading.feedback import points_words, unread
 from graphkin.classroom.grading.graded import THOUSANDS, WITHHELD, EarnedMark, Graded, Status
 from graphkin.classroom.grading.kept_marks import KeptReport

@@ -16,11 +16,16 @@ from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
-from graphkin.classroom.roster.taker import Taker
-from graphkin.reading.kept_readings import records_in
+from graphkin.classroom.roster.students import Taker
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.read_sheet import SheetRecord, sheets_of
-from graphkin.reading.settled_points import SettledPoints, Standing, latest_of, settled_points
+from graphkin.reading.settled_points import (
+    SettledPoints,
+    Standing,
+    latest_of,
+    records_in,
+    settled_points,
+)
 from graphkin.text.errors import GraphkinError, Refusals
 from graphkin.text.tables import csv_text
 

@@ -16,16 +16,20 @@ from time import gmtime
 from msgspec import Struct
 
 from graphkin.classroom.grading.graded import DrawingRemark
-from graphkin.classroom.printing.edition import Edition
-from graphkin.classroom.printing.file_names import stems
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.printing.edition import Edition, stems
+from graphkin.classroom.roster.students import Taker
 from graphkin.construction.core.quantities import MOTION
 from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.richtext import font_file
-from graphkin.reading.kept_readings import PICTURE, records_in
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord
-from graphkin.reading.settled_points import SettledPoints, latest_of, settled_points
+from graphkin.reading.settled_points import (
+    PICTURE,
+    SettledPoints,
+    latest_of,
+    records_in,
+    settled_points,
+)
 from graphkin.text import Words
 from graphkin.text.errors import Refusals
 from graphkin.writers.templates import from_template

@@ -14,7 +14,7 @@ from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.personal import without_crosses
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.drawing.field import A3, SheetPaper, paper_of
 from graphkin.numbers.arithmetic import np
 from graphkin.reading.lettered_points import LetteredSheet

@@ -3,6 +3,8 @@
 The square with the code gives a rough position. From there the printed lines are followed outwards,
 ring by ring: each is searched for where the current map puts it, and the map is fitted again to all
 lines found. Perspective, lens and bending are fitted together.
+
+The crosses of a printed sheet in its picture: the offset of each from where the map puts it.
 """
 
 from __future__ import annotations
@@ -16,24 +18,82 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.printing.personal import crosses_of
+from graphkin.classroom.printing.personal import ARM, crosses_of
 from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.marks import LineMark, Page, Polyline, style_class
 from graphkin.drawing.style import style_of
 from graphkin.reading.paper_map import (
+    ACROSS,
     COUNT,
     CREASED,
+    CROSSED,
     LENS,
     PLAIN,
+    Offsets,
     PaperMap,
     bendings,
     creasings,
     prior,
+    ripple_of,
     seen_at,
     units,
 )
-from graphkin.reading.paper_ripple import ACROSS, Offsets, ripple_of
-from graphkin.reading.printed_crosses import LEAST_CROSSES, crosses_off
+
+CROSS_REACH, CROSS_SIDE, CROSS_BLUR = 1.5, 1.6, 0.16
+"""The search distance for a cross, half the side of its template, and its blur, in mm."""
+CROSS_ALIKE, LEAST_CROSSES = 0.7, 0.3
+"""The least match of a cross with its template.
+
+Also the least share of crosses found on a sheet printed with them: drawings cover some.
+"""
+
+
+def crosses_off(smooth: Any, over: PaperMap, places: Any) -> tuple[Offsets, float]:
+    """Offsets of the clearly visible crosses, right and down, and the share found.
+
+    The share is of the crosses within the picture.
+    """
+    near = np.arange(-CROSS_REACH - CROSS_SIDE, CROSS_REACH + CROSS_SIDE + STEP / 2, STEP)
+    window = np.stack(np.meshgrid(near, near), axis=-1)
+    right, down = (way[:, None, None] for way in over.ways(places))
+    pixels = over(places)[:, None, None] + window[..., :1] * right + window[..., 1:] * down
+    height, width = smooth.shape
+    inside = (pixels > 1).all((1, 2, 3)) & (pixels < [width - 2, height - 2]).all((1, 2, 3))
+    looked = np.flatnonzero(inside)
+    model = cross_model()
+    found, off = np.zeros(len(places), bool), np.zeros((len(places), 2))
+    for i in looked:
+        x, y = np.moveaxis(pixels[i].astype(np.float32), -1, 0)
+        light = cv2.remap(smooth, x, y, cv2.INTER_LINEAR).astype(np.float32)
+        alike = cv2.matchTemplate(light, model, cv2.TM_CCOEFF_NORMED)
+        row, column = np.unravel_index(int(alike.argmax()), alike.shape)
+        if alike[row, column] < CROSS_ALIKE or not 0 < row < len(alike) - 1 > column > 0:
+            continue
+        found[i] = True
+        off[i] = (
+            STEP * (column + vertex(alike[row, column - 1 : column + 2])) - CROSS_REACH,
+            STEP * (row + vertex(alike[row - 1 : row + 2, column])) - CROSS_REACH,
+        )
+    both = np.repeat(places[found], 2, axis=0)
+    ways = np.tile(np.eye(2), (int(found.sum()), 1))
+    offsets = Offsets(both, ways, off[found].ravel(), np.full(len(both), CROSSED))
+    return offsets, float(found.sum() / max(len(looked), 1))
+
+
+def cross_model() -> Any:
+    """The template of a blurred cross, as lightness around its middle."""
+    near = np.arange(-CROSS_SIDE, CROSS_SIDE + STEP / 2, STEP)
+    along = np.clip((ARM + CROSS_BLUR / 2 - abs(near)) / CROSS_BLUR, 0, 1)
+    across = np.exp(-((near / CROSS_BLUR) ** 2) / 2)
+    dark = np.maximum(np.outer(across, along), np.outer(along, across))
+    return (255 * (1 - dark)).astype(np.float32)
+
+
+def vertex(three: Any) -> float:
+    """The vertex of a parabola through three values one step apart, from the middle one."""
+    first, middle, last = (float(each) for each in three)
+    return (first - last) / 2 / min(first - 2 * middle + last, -1e-9)
+
 
 LINES = ("frame", "border", "panel")
 """The classes of the printed lines that are followed."""

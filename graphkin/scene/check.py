@@ -13,12 +13,12 @@ from graphkin.scene.findings import Findings, listed, nearest, numbered
 from graphkin.scene.known_names import (
     THE_MECHANISM,
     check_guide,
+    check_names,
     known_link,
     known_point,
     place_of,
     quoted,
 )
-from graphkin.scene.link_names import check_names
 from graphkin.scene.model import (
     FRAME,
     LEADING,

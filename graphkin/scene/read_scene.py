@@ -14,7 +14,7 @@ from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.house import PLAIN, RESULTS, House, house_beside
-from graphkin.scene.link_names import read_names
+from graphkin.scene.known_names import read_names
 from graphkin.scene.measures import Measures, quantity
 from graphkin.scene.model import FRAME, MASS_KEYS, Ask, Driver, DriverKind, Link, Scene
 from graphkin.scene.parameters import read_parameters, set_values
@@ -316,7 +316,7 @@ def read_links(
             written[name] = Table(place, raw, measures.findings)
             links[name] = read_link(name, written[name], measures, module)
     if any("touches" in each for each in written.values()):
-        from graphkin.scene.touching_profiles import normals
+        from graphkin.scene.read_joints import normals
 
         raw = top.raw.get(FRAME_WORD)
         frame = Table(FRAME_WORD, raw if isinstance(raw, dict) else {}, measures.findings)

@@ -32,10 +32,9 @@ from graphkin.structure.groups import (
     TriedLink,
     Unresolved,
 )
-from graphkin.structure.joints import Joints, partner
+from graphkin.structure.joints import Joints, is_spare, partner, way_between
 from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.pairs import Joint, Pair, Pin, PinLine, Sliding
-from graphkin.structure.parallel_bars import is_spare, way_between
 from graphkin.structure.turning import LEVEL, guide_on
 from graphkin.structure.wheel_groups import (
     by_centres,

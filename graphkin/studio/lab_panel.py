@@ -22,9 +22,9 @@ from graphkin.classroom.lab.fairness_words import (
     spread_table,
     spreads_of,
 )
-from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.lab.lab_model import Lab, exact_text
 from graphkin.classroom.lab.lab_trial import LabTrial, tried
-from graphkin.classroom.lab.proposed_ranges import (
+from graphkin.classroom.lab.new_lab import (
     APART,
     FormulaFaults,
     Mending,
@@ -33,7 +33,6 @@ from graphkin.classroom.lab.proposed_ranges import (
     proposed_ranges,
 )
 from graphkin.classroom.lab.read_lab import LAB, SCENE, read_lab
-from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.variants.assign import Assigned
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.studio.mends import Edit, units

@@ -11,7 +11,7 @@ from typing import Any
 
 from msgspec import Struct, field, to_builtins
 
-from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.construction.core.given_data import unit_of
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import sheet_motion
@@ -26,8 +26,7 @@ from graphkin.scene.quantity import Quantity
 from graphkin.scene.read_scene import known_keys, read_text
 from graphkin.scene.toml_spans import Path, Span, parts, spans
 from graphkin.studio.mends import Edit, mends_of, units
-from graphkin.studio.panels import Memory, panels, style
-from graphkin.studio.result_panel import margins, results, verdict_words
+from graphkin.studio.panels import Memory, margins, panels, results, style, verdict_words
 from graphkin.text import Words, words
 from graphkin.text.errors import GraphkinError, InLine, Problem, Setting, Sought, message
 from graphkin.text.markup import as_text

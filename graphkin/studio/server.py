@@ -1,4 +1,12 @@
-"""The addresses of the studio and its server, on the loopback address and behind a new token."""
+"""The addresses of the studio and its server, on the loopback address and behind a new token.
+
+A file readable by this user alone that redirects a browser to the page.
+
+Every user of a computer can read the command line of a browser, so it names this file rather than
+the address with its token.
+
+The common parts of pages on this computer: answers to requests, and static files.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +15,10 @@ import logging
 import socket
 from collections.abc import Callable, Mapping
 from functools import lru_cache
+from html import escape
 from pathlib import Path
+from shutil import rmtree
+from tempfile import mkdtemp
 from typing import Any
 from urllib.parse import urlencode
 
@@ -15,14 +26,73 @@ from msgspec import Struct
 
 from graphkin import __version__
 from graphkin.documents.view_names import VIEWS
+from graphkin.drawing.richtext import FILES
+from graphkin.drawing.richtext import FOLDER as FONTS
 from graphkin.scene import scene_files
 from graphkin.studio.guard import FRAMED, Guard, new_token
-from graphkin.studio.local_pages import JSON, KINDS, answer, answering, new_application
 from graphkin.studio.look import spoken_in
-from graphkin.studio.session import MOST_BYTES, OPENED, Opened, PageRequest, Session
+from graphkin.studio.session import (
+    MOST_BYTES,
+    OPENED,
+    Opened,
+    PageRequest,
+    PageRequestError,
+    Session,
+)
 from graphkin.text import LANGUAGES, Words, keys
 from graphkin.text.errors import GraphkinError, PageError, Problem, message
 from graphkin.writers.templates import from_template
+
+KINDS = {".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+KINDS |= {".woff2": "font/woff2", ".html": "text/html", ".png": "image/png", ".jpg": "image/jpeg"}
+JSON = "application/json"
+
+
+def new_application(folder: Path) -> Any:
+    """A WSGI application with the files of a folder and the fonts of the sheets."""
+    from bottle import Bottle
+
+    app = Bottle()
+    app.config["catchall"] = False  # an internal error is printed where the page was started
+    app.route("/<name:re:[a-zA-Z-]+\\.(css|js|svg|woff2)>", "GET", lambda name: file(folder, name))
+    return app
+
+
+def file(folder: Path, name: str) -> Any:
+    """A file of the page, or one of the sheet's fonts."""
+    path = (Path(FONTS) if name in {f"{font}.woff2" for font in FILES.values()} else folder) / name
+    if not path.is_file():
+        return answer(404, "text/plain", b"no such file\n")
+    return answer(200, KINDS[path.suffix], path.read_bytes())
+
+
+def answering(work: Callable[[bytes], bytes], most: int) -> Callable[[], Any]:
+    """A handler that takes JSON of at most ``most`` bytes and returns the result of ``work``."""
+
+    def handler() -> Any:
+        from bottle import request
+
+        if request.content_type.partition(";")[0].strip() != JSON:
+            return answer(415, "text/plain", b"JSON is expected\n")
+        if request.content_length > most:
+            return answer(413, "text/plain", b"too large\n")
+        try:
+            return answer(200, JSON, work(request.body.read(most + 1)))
+        except PageRequestError as error:
+            return answer(400, "text/plain", f"{error}: not as the page asks\n".encode())
+
+    return handler
+
+
+def answer(status: int, kind: str, body: bytes) -> Any:
+    """An answer with a status and a content type; texts are UTF-8."""
+    from bottle import HTTPResponse
+
+    whole = (
+        kind if kind.startswith(("font", "image/jpeg", "image/png")) else f"{kind}; charset=utf-8"
+    )
+    return HTTPResponse(body, status, {"Content-Type": whole})
+
 
 SPOKEN = "studio."
 """Prefix of the keys of the studio's sentences, in the page and in later messages."""
@@ -258,3 +328,36 @@ def listener(port: int) -> socket.socket:
         raise PageError(problem) from error
     found.listen(16)
     return found
+
+
+PAGE = """<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="referrer" content="no-referrer">
+<meta http-equiv="refresh" content="0; url={address}">
+<title>graphkin</title>
+</head>
+<body><a href="{address}">graphkin studio</a></body>
+</html>
+"""
+
+
+class Redirect:
+    """A redirect that exists from its writing until the page is requested."""
+
+    def __init__(self) -> None:
+        self.folder: Path | None = None
+
+    def write(self, address: str) -> str:
+        """Write the file into a folder that only this user may open; return its address."""
+        self.folder = Path(mkdtemp(prefix="graphkin-"))
+        path = self.folder / "studio.html"
+        path.write_text(PAGE.format(address=escape(address)), encoding="utf-8")
+        return path.as_uri()
+
+    def remove(self) -> None:
+        """Remove the file, if it still exists."""
+        folder, self.folder = self.folder, None
+        if folder:
+            rmtree(folder, ignore_errors=True)

@@ -16,8 +16,8 @@ from typing import Any
 
 from msgspec import Struct, to_builtins
 
+from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.classroom.lab.new_lab import START, rules_for
-from graphkin.classroom.lab.rules import exact_text
 from graphkin.classroom.sheet_files import hand_out_page, sheet_files
 from graphkin.construction.core.quantities import SHEETS
 from graphkin.documents.view_names import VIEWS
@@ -511,7 +511,7 @@ class Session:
 
     def bring(self, order: PageRequest) -> dict[str, Any]:
         """A file, link or text of another program as the text of a scene."""
-        from graphkin.studio.bringing import Brought, asks_more, brought, tracing_of
+        from graphkin.studio.folder import Brought, asks_more, brought, tracing_of
 
         words = {key: order.text(key) for key in ("fixed", "drive", "slides")}
         language = language_in(order)

@@ -9,7 +9,6 @@ from math import ceil
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.bare_plan import Free, is_point, is_shown, plan_box
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import angle_symbol
@@ -23,7 +22,7 @@ from graphkin.construction.links.mechanism_symbols import (
     draw_pins,
     draw_plates,
 )
-from graphkin.construction.step_marks import draw_plan_steps
+from graphkin.construction.step_marks import Free, draw_plan_steps, is_point, is_shown, plan_box
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import Field, Rect, clipped
 from graphkin.drawing.labels import FieldContent

@@ -23,8 +23,7 @@ from graphkin.construction.tape.tape_outputs import NOWHERE, TapeOutputs
 from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class
 from graphkin.drawing.richtext import extent
-from graphkin.web.body_pose import BodyPose
-from graphkin.web.moving_sheet import MovingSheet
+from graphkin.web.moving_sheet import BodyPose, MovingSheet
 
 GROWTH = 3.5
 """Growth of a field on each side, in widths or heights of the field, for marks that leave it."""

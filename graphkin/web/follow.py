@@ -17,7 +17,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.link_poses import Disc, Touch
 from graphkin.construction.core.paper_canvas import above_foot, inside, stretched
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import plan_vector
 from graphkin.construction.core.solution import Curve
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.slide_symbols import within
@@ -28,7 +28,6 @@ from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class
 from graphkin.numbers.plane import Line as Carrier
 from graphkin.numbers.plane import Ratio, Vector, dot
-from graphkin.web.body_pose import BodyPose
 from graphkin.web.field_binder import (
     SPACING,
     Binding,
@@ -39,8 +38,8 @@ from graphkin.web.field_binder import (
     only_at_start,
     still,
 )
-from graphkin.web.moving_canvas import MovingCanvas, Stroke
-from graphkin.web.moving_field import Local, MovingCoordinate, MovingField
+from graphkin.web.moving_canvas import Local, MovingCanvas, MovingCoordinate, MovingField, Stroke
+from graphkin.web.moving_sheet import BodyPose
 
 ENDLESS: Rect = (-inf, -inf, inf, inf)
 """A field that clips nothing."""

@@ -2,13 +2,17 @@
 
 The function is the traced program, one statement for each operation, and uses only the standard
 library of its language.
+
+A mechanism's formula as a workbook that computes: arguments, results, and a cell for each step.
+
+A constant is a cell of its own, because a number within a formula of a cell keeps 15 digits only.
 """
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from msgspec import Struct
@@ -17,29 +21,25 @@ from graphkin.construction.core.quantities import OF_POINTS, RATES, motion_value
 from graphkin.construction.core.run import made_ready, run_moving
 from graphkin.construction.core.solution import Solution, gathered
 from graphkin.construction.links.rolled_turn import counted_link
-from graphkin.construction.tape.emitted import LOOP
-from graphkin.construction.tape.graph import Graph
-from graphkin.construction.tape.javascript import CALLS, SIGNS
-from graphkin.construction.tape.traced import (
-    TracedNumber,
-    UntraceableError,
-    entered,
-    traced_kind,
-)
+from graphkin.construction.tape.emitted import JS_CALLS, LOOP, SIGNS
+from graphkin.construction.tape.graph import Graph, Node
+from graphkin.construction.tape.traced import TracedNumber, UntraceableError, entered, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.text.errors import Message, Problem, SceneError, message
+from graphkin.text.tables import Cell
 from graphkin.web.page_driver import driven_by, time_of
+from graphkin.writers.workbook import Computed, workbook
 
 TIME_INPUT = "time"
 """The letter before x and y in the name of a part of a vector."""
 C_SIGNS = {
     **{op: sign for op, sign in SIGNS.items() if op != "over"},
     "over": "1.0/{}",
-    **{op: f"{call}({{}})" for op, call in CALLS.items() if op not in ("min", "max", "atan2")},
+    **{op: f"{call}({{}})" for op, call in JS_CALLS.items() if op not in ("min", "max", "atan2")},
     "abs": "fabs({})",
     "round": "rint({})",
     "atan2": "atan2({}, {})",
@@ -48,7 +48,7 @@ C_SIGNS = {
 }
 JAVASCRIPT_SIGNS = {
     **SIGNS,
-    **{op: f"Math.{call}({{}})" for op, call in CALLS.items()},
+    **{op: f"Math.{call}({{}})" for op, call in JS_CALLS.items()},
     **{op: f"Math.{op}({{}}, {{}})" for op in ("min", "max", "atan2")},
 }
 PYTHON_SIGNS = {
@@ -60,7 +60,7 @@ PYTHON_SIGNS = {
 }
 MATLAB_SIGNS = {
     **C_SIGNS,
-    **{op: f"{call}({{}})" for op, call in CALLS.items() if op not in ("min", "max", "atan2")},
+    **{op: f"{call}({{}})" for op, call in JS_CALLS.items() if op not in ("min", "max", "atan2")},
     "sqrt": "root({})",
     "not": "~{}",
     "choose": "pick({}, {}, {})",
@@ -372,3 +372,68 @@ def matlab(formula: Formula) -> str:
 
 LANGUAGES = {"python": python, "javascript": javascript, "c": c, "matlab": matlab}
 """The languages of a formula; tests hold the numbers of each to ``solve``."""
+
+
+CELLS = {
+    **SIGNS,
+    **{op: f"{call.upper()}({{}})" for op, call in JS_CALLS.items()},
+    "round": "ROUND({},0)",
+    "floor": "INT({})",
+    "atan2": "IF(AND({0}=0,{1}=0),0,ATAN2({1},{0}))",
+    "min": "IF({0}<={1},{0},{1})",
+    "max": "IF({0}<={1},{1},{0})",
+    "equal": "{}={}",
+    "both": "AND({},{})",
+    "either": "OR({},{})",
+    "not": "NOT({})",
+    "choose": "IF({},{},{})",
+}
+MOTION, STEPS = "Motion", "Steps"
+"""The sheet that people read, and the sheet of the single operations."""
+TOP = 3
+"""The row of the first argument."""
+
+
+def formula_workbook(formula: Formula) -> bytes:
+    """An XLSX workbook in which a change of an argument computes all results again.
+
+    A result is an error value where the mechanism cannot be assembled. Raises PageError without
+    openpyxl.
+    """
+    inputs = {each.input: f"{MOTION}!$B${TOP + i}" for i, each in enumerate(formula.arguments)}
+    order = formula.graph.needed(formula.results.values())
+    places = {number: f"{STEPS}!$B${row}" for row, number in enumerate(order, 2)}
+    nodes = [formula.graph.nodes[number] for number in order]
+    places |= {
+        number: inputs[node.name]
+        for number, node in zip(order, nodes, strict=True)
+        if node.op == "input"
+    }
+    steps: list[Sequence[Cell]] = [["operation", "value"]]
+    steps += [
+        [node.op, value_of(node, [places[arg] for arg in node.args], inputs)] for node in nodes
+    ]
+    return workbook({MOTION: list(motion_rows(formula, places)), STEPS: steps})
+
+
+def motion_rows(formula: Formula, places: dict[int, str]) -> Iterator[Sequence[Cell]]:
+    yield [" ".join(formula.title.split()), "", ""]
+    yield ["argument", "value", "meaning"]
+    for each in formula.arguments:
+        yield [each.name, each.value, each.note]
+    yield []
+    yield ["result", "value", "SI units"]
+    for name, node in formula.results.items():
+        yield [name, Computed(f"={places[node]}"), ""]
+    yield []
+    for line in formula.notes[1 + len(formula.arguments) :]:
+        yield [line]
+
+
+def value_of(node: Node, args: Sequence[str], inputs: dict[str, str]) -> Cell:
+    """A constant, or the formula of an operation; an infinite constant divides by zero."""
+    if node.op == "number":
+        return node.value if abs(node.value) < float("inf") else Computed("=1/0")
+    return Computed(
+        "=" + (inputs[node.name] if node.op == "input" else CELLS[node.op].format(*args))
+    )

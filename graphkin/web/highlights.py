@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from graphkin.construction.centres.acceleration_poles import AccelerationPole
+from graphkin.construction.centres.instant_centre import AccelerationPole
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import plan_vector
 from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
-from graphkin.documents.mark_dependencies import BODY
+from graphkin.documents.step_pages import BODY
 from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.web.facts import SLIDES

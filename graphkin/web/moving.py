@@ -17,9 +17,9 @@ from msgspec import Struct
 from graphkin.construction.core.crossings import is_drawn
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import data
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import plan_vector
 from graphkin.construction.core.quantities import unit_words
-from graphkin.construction.tape.javascript import MATH, script_source
+from graphkin.construction.tape.emitted import MATH, script_source
 from graphkin.construction.tape.traced import UntraceableError, traced_kind
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import CircleMark, Text, style_class

@@ -1,10 +1,13 @@
-"""One moving sheet: its bodies, and the drawn length of its lines and arcs."""
+"""One moving sheet: its bodies, and the drawn length of its lines and arcs.
+
+The traced pose of a moving body: one of its points and a direction.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -16,7 +19,26 @@ from graphkin.construction.core.run import Trace
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.numbers.arithmetic import larger, np, pick, smaller
 from graphkin.numbers.plane import Circle, Ratio, dot
-from graphkin.web.body_pose import BodyPose, unit
+
+
+class BodyPose(NamedTuple):
+    """The pose of a body: one of its points and a unit direction that turns with it."""
+
+    origin: Any
+    way: Any
+
+    def is_same(self, other: BodyPose) -> bool:
+        """Whether both are the same pose at every position."""
+        return is_one(self.origin, other.origin) and is_one(self.way, other.way)
+
+
+def is_one(one: Any, other: Any) -> bool:
+    """Whether two traced points or directions are the same at every position."""
+    return bool((one.node, one.imag.node) == (other.node, other.imag.node))
+
+
+def unit(way: Any) -> Any:
+    return way / abs(way)
 
 
 class MovingSheet(Struct, frozen=True, dict=True):

@@ -15,25 +15,23 @@ from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence, construction
-from graphkin.construction.core.plan_vector import is_set_on, plan_vector
-from graphkin.construction.core.program import Part, Plane, Program, Step
-from graphkin.construction.core.segments import segment_of
+from graphkin.construction.core.naming import segment_of
+from graphkin.construction.core.program import Part, Plane, Program, Step, is_set_on, plan_vector
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.higher_class.two_trials import divided_alone
 from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.rolling.contact_points import PointOfContact
-from graphkin.construction.step_sentences import point_parts
+from graphkin.construction.step_marks import point_parts
 from graphkin.documents.detail import scale_words
-from graphkin.documents.flattest import crossings_on
-from graphkin.documents.mark_dependencies import ground_of
 from graphkin.documents.sentences import (
     SET_ON,
     TURNING,
+    crossings_on,
     set_on_mechanism,
     unexplained,
     with_indices,
 )
-from graphkin.documents.step_pages import accompanied, naming_stages, stage_of, stages
+from graphkin.documents.step_pages import accompanied, ground_of, naming_stages, stage_of, stages
 from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.text.markup import AND, EQUALS, names_in

@@ -12,8 +12,7 @@ from graphkin.construction.core.program import Part, Step
 from graphkin.construction.links.idle_links import IDLE
 from graphkin.construction.normal_component.normal_component import NormalComponent
 from graphkin.construction.velocity.lines_through import PerpendicularThrough
-from graphkin.documents.flattest import OWN
-from graphkin.documents.sentences import SET_ON, TURNING
+from graphkin.documents.sentences import OWN, SET_ON, TURNING
 from graphkin.numbers.plane import Line
 
 AGAIN = {

@@ -13,8 +13,7 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.naming import name_of_sheet, scale_of
-from graphkin.construction.core.plan_vector import PlanVector, plan_vector
-from graphkin.construction.core.program import Part, Step
+from graphkin.construction.core.program import Part, PlanVector, Step, plan_vector
 from graphkin.construction.core.quantities import CENTRES
 from graphkin.construction.result_tables import unread
 from graphkin.documents.scheme import scheme

@@ -20,8 +20,7 @@ from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.pieces import Path, reachable_ranges, through
-from graphkin.motion.sweep import Sweep, sweep_of
-from graphkin.motion.turns_counted import Turned, name_of
+from graphkin.motion.sweep import Sweep, Turned, name_of, sweep_of
 from graphkin.scene.model import quantities_within
 from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
 from graphkin.web.traced_closings import (

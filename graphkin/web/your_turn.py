@@ -12,12 +12,10 @@ from graphkin.construction.centres.centre import VelocityNormal
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
-from graphkin.construction.core.naming import rate_symbol, sense, vector_of
+from graphkin.construction.core.naming import letter_at, rate_symbol, sense, vector_of
 from graphkin.construction.core.palette import SIMILAR, Move, images_and_place
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import Part, Plane, Step, plan_vector
 from graphkin.construction.core.quantities import OMEGA
-from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import (
     Action,
     in_proportion,

@@ -17,8 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.text.errors import PageError, Problem, message
-from graphkin.writers.commit import PATIENCE
-from graphkin.writers.lock import locked
+from graphkin.writers.commit import PATIENCE, locked
 
 MOST = 1 << 26
 """The most bytes of the file: some half a million lines."""

@@ -16,10 +16,9 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import KEPT, Book, graded_class
 from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 
 ROWS, ALONE = 10_000, 100
 """Rows of a class, and how many of them are marked one by one."""

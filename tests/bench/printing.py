@@ -18,7 +18,7 @@ from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
 from graphkin.classroom.printing.print_work import PrintOrder, StudentSheets, make
 from graphkin.classroom.printing.workers import CHUNK, processes
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.documents.sheet_documents import hand_out

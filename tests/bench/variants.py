@@ -12,10 +12,9 @@ from fractions import Fraction
 
 from msgspec.structs import replace
 
-from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.lab.lab_model import Lab, settings
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import settings
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.documents.scaling import scales
 from graphkin.mechanism import load

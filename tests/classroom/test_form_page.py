@@ -16,7 +16,7 @@ from graphkin.classroom.grading.answers import read_answers
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 from graphkin.mechanism import load
 from graphkin.text import LANGUAGES, words
 from graphkin.web import step_page as pages

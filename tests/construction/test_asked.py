@@ -8,8 +8,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.construction.core.pen import letter
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.program import Plane, plan_vector
 from graphkin.mechanism import Mechanism
 from graphkin.scene.link_points import point_of
 from graphkin.scene.model import FRAME

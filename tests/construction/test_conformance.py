@@ -21,14 +21,14 @@ import graphkin.construction
 from graphkin.accuracy.pencil.forecast import forecast
 from graphkin.accuracy.pencil.original import original
 from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.cli.report.crossing_words import place_words
+from graphkin.cli.report.motion_report import place_words
 from graphkin.cli.report.pencil_report import pencil_lines, step_words
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.solution import Verdict
-from graphkin.documents.force_sheets import with_force_plan
+from graphkin.documents.force_fields import with_force_plan
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import sentences

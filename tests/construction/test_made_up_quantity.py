@@ -100,7 +100,7 @@ from graphkin.loops.witness.examine import examine
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.studio.building import Act, built
-from graphkin.studio.result_panel import results
+from graphkin.studio.panels import results
 from graphkin.text import words
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import meanings

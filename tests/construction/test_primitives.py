@@ -17,8 +17,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.errors import UnsatisfiedAssumption
 
-from graphkin.construction.centres.acceleration_poles import acceleration_pole
-from graphkin.construction.centres.instant_centre import instant_centre
+from graphkin.construction.centres.instant_centre import acceleration_pole, instant_centre
 from graphkin.construction.core import vocabulary
 from graphkin.construction.links import dyad_by_arcs
 from graphkin.construction.normal_component import normal_component

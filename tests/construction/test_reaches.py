@@ -5,9 +5,8 @@ import cmath
 import numpy as np
 import pytest
 
-from graphkin.construction.guides.dyad_by_arc_and_guide import arc_cuts_line
 from graphkin.construction.guides.swung_guide import swing
-from graphkin.construction.links.dyad_by_arcs import arcs_meet
+from graphkin.construction.links.dyad_by_arcs import arc_cuts_line, arcs_meet
 from graphkin.construction.links.rolled_turn import counted_near
 from graphkin.numbers.plane import Circle, Line
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from graphkin.construction.core.segments import TINY
+from graphkin.construction.core.naming import TINY
 from graphkin.construction.result_tables import turning_rows, vector_rows
 from graphkin.documents.relations import relations as relations_of
 from graphkin.documents.scaling import sheet_motion

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.core.kind import constructions
-from graphkin.construction.core.plan_vector import sign_of
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.program import Step, sign_of
 from graphkin.construction.higher_class.closure_solver import run_settled
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.higher_class.trial_rates import enlarged, followed_rates, spread_of

@@ -6,7 +6,7 @@ import pytest
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import plan_vector
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import sheet

@@ -6,11 +6,10 @@ from functools import cache
 import pytest
 
 from graphkin.construction.result_tables import turning_rows, vector_rows
-from graphkin.documents.continuation import rest
 from graphkin.documents.listing import on_sheets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import Moved, data
-from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out, proved
+from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out, proved, rest
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol

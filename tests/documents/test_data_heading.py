@@ -5,7 +5,6 @@ from itertools import cycle
 import pytest
 
 from graphkin.construction.core.layout import lay_out, lowered
-from graphkin.documents.continuation import continued_lines
 from graphkin.documents.sheet import (
     NAME,
     Moved,
@@ -15,7 +14,7 @@ from graphkin.documents.sheet import (
     title_line,
     writing,
 )
-from graphkin.documents.sheet_documents import drawn_sheets
+from graphkin.documents.sheet_documents import continued_lines, drawn_sheets
 from graphkin.drawing.field import A3, ABOVE
 from graphkin.drawing.marks import LineMark, Text, reach
 from tests.chosen import HALVES

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphkin.construction.core.program import Part
-from graphkin.documents.flattest import crossings_on, flattest_line
+from graphkin.documents.sentences import crossings_on, flattest_line
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.text import words

@@ -12,10 +12,10 @@ from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Part
 from graphkin.construction.forces.polygon import PolygonStart
 from graphkin.documents.diagrams_sheet import force_courses
-from graphkin.documents.force_sentences import force_relations
-from graphkin.documents.force_sheets import force_drawing, traced
+from graphkin.documents.force_fields import force_drawing, traced
 from graphkin.documents.positions import positions_of
 from graphkin.documents.scaling import sheet_motion
+from graphkin.documents.sentences import force_relations
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.marks import LineMark, Page, Text, style_class
 from graphkin.drawing.richtext import plain

@@ -11,8 +11,7 @@ import pypdf
 import pytest
 
 from graphkin.classroom.printing.personal import owner
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved

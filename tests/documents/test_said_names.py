@@ -5,7 +5,7 @@ from itertools import cycle
 
 import pytest
 
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import plan_vector
 from graphkin.documents.sentences import unexplained
 from graphkin.documents.sheet import sheet
 from graphkin.documents.sheet_documents import drawings_of, proved

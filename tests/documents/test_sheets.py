@@ -15,8 +15,8 @@ from shapely.geometry.base import BaseGeometry
 from graphkin.construction.core.component import crowded_pins
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.segments import TINY as SHORTEST
+from graphkin.construction.core.naming import TINY as SHORTEST
+from graphkin.construction.core.program import plan_vector
 from graphkin.construction.result_tables import turning_links, vectors
 from graphkin.documents.detail import far_places, inset, parted
 from graphkin.documents.sentences import sentences

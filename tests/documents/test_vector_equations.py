@@ -10,9 +10,8 @@ from graphkin.construction.core.naming import driver_index
 from graphkin.construction.core.relation import Term, VectorEquation
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.rolling.rolling_normal import RollingNormal
-from graphkin.construction.vector_equations import of_equations
 from graphkin.documents.calculation import calculation
-from graphkin.documents.relations import relations
+from graphkin.documents.relations import of_equations, relations
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.scene.link_points import lettered, under

@@ -14,8 +14,8 @@ import pytest
 from click.testing import CliRunner
 
 import graphkin
-from graphkin.classroom.lab.cause_names import NAMES as CAUSES
 from graphkin.classroom.lab.fairness import WORDS as LIMITS
+from graphkin.classroom.lab.lab_model import NAMES as CAUSES
 from graphkin.cli.main import app
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import variant

@@ -9,7 +9,7 @@ import pytest
 import shapely
 from msgspec.structs import replace
 
-from graphkin.construction.guides.pivot_grounds import ground_ways
+from graphkin.construction.guides.slide_symbols import ground_ways
 from graphkin.drawing.marks import Polyline
 from tests.chosen import CHOSEN
 from tests.documents.made_up import made_up

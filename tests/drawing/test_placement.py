@@ -14,9 +14,8 @@ from hypothesis import strategies as st
 from msgspec.structs import replace
 from shapely import LineString, MultiLineString, Point, box
 
-from graphkin.drawing import clashes, placement
-from graphkin.drawing.clashes import PAD
-from graphkin.drawing.clearance import LONGEST, Blots, Subjects, distance_cost, tries
+from graphkin.drawing import clearance, placement
+from graphkin.drawing.clearance import LONGEST, PAD, Blots, Subjects, distance_cost, tries
 from graphkin.drawing.placement import CLEAR, Segment, Spot, Wish, place
 from graphkin.drawing.shapes import LOOSE, merged, segments, separation
 
@@ -270,7 +269,7 @@ def crowd(count: int) -> list[Wish]:
 
 def test_places_compared_a_few_at_a_time_rule_out_the_same(monkeypatch):
     at_one_go = place(crowd(30), [[10, 31, 60, 31]], NONE, FIELD)
-    monkeypatch.setattr(clashes, "AT_ONCE", 7)
+    monkeypatch.setattr(clearance, "AT_ONCE", 7)
     monkeypatch.setattr(placement, "AT_ONCE", 3)
     assert place(crowd(30), [[10, 31, 60, 31]], NONE, FIELD) == at_one_go
 
@@ -280,13 +279,13 @@ def test_no_more_places_are_offered_than_a_page_may_have(monkeypatch):
     found = place(crowd(60), NONE, NONE, FIELD)
     monkeypatch.setattr(placement, "MOST", 300)
     offered: list[int] = []
-    add = clashes.Clashes.add
+    add = clearance.Clashes.add
 
     def counted(self, more):
         add(self, more)
         offered.append(len(self.places.label))
 
-    monkeypatch.setattr(clashes.Clashes, "add", counted)
+    monkeypatch.setattr(clearance.Clashes, "add", counted)
     fewer = place(crowd(60), NONE, NONE, FIELD)
     assert 250 < max(offered) <= 300
     assert 0 < sum(spot.free for spot in fewer) <= sum(spot.free for spot in found)

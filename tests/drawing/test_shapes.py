@@ -12,8 +12,7 @@ from hypothesis import strategies as st
 from shapely import LineString, MultiLineString, Point, box
 
 from graphkin.documents.detail import within
-from graphkin.drawing.clashes import BESIDE, PAD, Clashes, OpenPlaces
-from graphkin.drawing.clearance import SAGITTA, chords_of
+from graphkin.drawing.clearance import BESIDE, PAD, SAGITTA, Clashes, OpenPlaces, chords_of
 from graphkin.drawing.free_space import Space
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Text, reach
 from graphkin.drawing.shapes import NOWHERE, meeting, merged

@@ -9,11 +9,11 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import Trace
-from graphkin.construction.forces.force_words import link_pair
 from graphkin.construction.forces.lever import LeverBalance
+from graphkin.construction.forces.loads import link_pair
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction
 from graphkin.construction.reactions import ForceSolution
-from graphkin.documents.force_sheets import traced
+from graphkin.documents.force_fields import traced
 from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism, gathered
 from graphkin.scene.forces import Forces, Load, Mass

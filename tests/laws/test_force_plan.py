@@ -17,7 +17,7 @@ from graphkin.construction.forces.force_plan import undrawn
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.loads import AppliedForce, InertiaForce
 from graphkin.construction.reactions import by_name
-from graphkin.documents.force_sheets import traced
+from graphkin.documents.force_fields import traced
 from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross

@@ -11,8 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import PointMotion
 from graphkin.construction.core.solution import Solution
-from graphkin.loops.assemble import assemble, led_by
-from graphkin.loops.freedom import true_mobility
+from graphkin.loops.assemble import assemble, led_by, true_mobility
 from graphkin.loops.rigid_bodies import half_angle
 from graphkin.loops.witness import compare, examine
 from graphkin.scene.model import Closure

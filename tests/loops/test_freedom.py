@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from graphkin.loops.freedom import true_mobility
+from graphkin.loops.assemble import true_mobility
 from graphkin.text.errors import StructureError
 from tests.scene_files import scene_text
 

@@ -11,8 +11,8 @@ from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion import follower_limits
 from graphkin.motion.cycle import cycle
+from graphkin.motion.ends import crossings_of_zero
 from graphkin.motion.follower_limits import followers, movers_of
-from graphkin.motion.refine import crossings_of_zero
 from graphkin.motion.single_loop import class_of, loop_of
 from graphkin.scene.read_scene import read_text
 from tests.bench.chain import scene as chain

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.motion.refine import (
+from graphkin.motion.ends import (
     AROUND,
     crossings_of_zero,
     last_closing,

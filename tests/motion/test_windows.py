@@ -14,8 +14,7 @@ from graphkin.motion import ends
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.driving import GRID
-from graphkin.motion.sweep import bounds_in_si
-from graphkin.motion.window import turn_evenly, whole_turn, window
+from graphkin.motion.sweep import bounds_in_si, turn_evenly, whole_turn, window
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
 from tests.motion.linkages import four_bar, slider_crank

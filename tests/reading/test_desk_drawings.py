@@ -12,8 +12,7 @@ import pytest
 from PIL import Image
 
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.reading.desk_app import DeskSession
-from graphkin.reading.desk_drawings import DrawingDesk
+from graphkin.reading.desk_app import DeskSession, DrawingDesk
 from graphkin.reading.marked_drawing import BLUE, drawings_of_class, pinned_remarks
 from graphkin.reading.settled_points import SETTLED, PointDecision, SettledPoints
 from graphkin.studio.session import PageRequestError

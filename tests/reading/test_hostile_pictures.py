@@ -21,8 +21,8 @@ from PIL import Image
 
 from graphkin.cli.main import app
 from graphkin.reading import pictures, read_sheet
-from graphkin.reading.kept_readings import READING
 from graphkin.reading.pictures import Unreadable, grey_of, photographs
+from graphkin.reading.settled_points import READING
 from graphkin.text.errors import PLAIN_TRACEBACK
 from tests.reading.camera import scan
 from tests.reading.hand import printed

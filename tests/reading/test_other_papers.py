@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from graphkin.cli.main import app
-from graphkin.reading.kept_readings import records_in
+from graphkin.reading.settled_points import records_in
 from tests.reading.camera import Shot, photograph
 from tests.reading.hand import DrawnSheet, Habits, drawn_sheet, sheets_of
 

@@ -17,14 +17,18 @@ from graphkin.reading.drawn_ink import InkLine
 from graphkin.reading.paper_map import (
     BENDS,
     COUNT,
+    CROSSED,
+    LEAST,
     LENS,
     PLAIN,
+    Offsets,
     PaperMap,
     bendings,
     creasings,
     prior,
+    ripple_of,
+    without,
 )
-from graphkin.reading.paper_ripple import CROSSED, LEAST, Offsets, ripple_of, without
 from graphkin.reading.point_search import (
     BREAK,
     along_way,
@@ -38,11 +42,11 @@ from graphkin.reading.point_search import (
     through,
     unbroken,
 )
-from graphkin.reading.printed_crosses import crosses_off
 from graphkin.reading.registration import (
     MeasuredLines,
     PrintedLines,
     SheetSearch,
+    crosses_off,
     least_stretch,
     peaks,
     printed_lines,

@@ -26,18 +26,16 @@ from graphkin.accuracy.pencil.pencil import Pencil
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.personal import modules
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.cli.main import app
 from graphkin.construction.core.program import Plane
 from graphkin.drawing.field import A3
 from graphkin.reading import read_run, registration
 from graphkin.reading.codes import code_among, codes_in
-from graphkin.reading.desk_app import DeskSession, desk_application, desk_page
-from graphkin.reading.desk_drawings import DrawingDesk
+from graphkin.reading.desk_app import DeskSession, DrawingDesk, desk_application, desk_page
 from graphkin.reading.drawn_answers import drawn_items, is_followed
 from graphkin.reading.drawn_ink import DENSITY as INK
 from graphkin.reading.drawn_ink import DrawnInk, fitted, offsets, refined
-from graphkin.reading.kept_readings import READING, kept, records_in
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.marked_drawing import (
     GREEN,
@@ -60,9 +58,12 @@ from graphkin.reading.point_search import (
 from graphkin.reading.read_run import ReadOutcome, read_order
 from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code, read_one
 from graphkin.reading.settled_points import (
+    READING,
     SETTLED,
     PointDecision,
     SettledPoints,
+    kept,
+    records_in,
     settled_points,
 )
 from graphkin.studio.guard import Guard

@@ -137,8 +137,8 @@ def test_who_renders_a_service_is_there():
         ("scene", "from ..motion import sweep", "motion.sweep"),
         (
             "loops",
-            "if TYPE_CHECKING:\n    from graphkin.web.animation import gif",
-            "web.animation.gif",
+            "if TYPE_CHECKING:\n    from graphkin.web.player import gif",
+            "web.player.gif",
         ),
     ],
 )

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.motion.change_points import MOST_CLOSURES, others_of
 from graphkin.motion.cycle import cycle
+from graphkin.motion.pieces import MOST_BEYOND, others_of
 from graphkin.scene.model import Closure
 from graphkin.text.errors import ClosureError
 from tests.stress.cases import LONG, FourBar, Lever, commanded, held, statuses
@@ -146,4 +146,4 @@ def test_the_commands_on_a_pin_that_falls_on_the_pivot_of_its_slot(at, expected,
 
 def test_a_numbered_closure_may_change_to_every_other_number():
     others = [branch.number for branch in others_of(Closure(3))]
-    assert sorted([*others, 3]) == [*range(1, MOST_CLOSURES + 1)]
+    assert sorted([*others, 3]) == [*range(1, MOST_BEYOND + 1)]

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from graphkin.cli.main import app
-from graphkin.diagnosis.exact_intersection import ROUNDING
+from graphkin.diagnosis.assembly_failure import ROUNDING
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError

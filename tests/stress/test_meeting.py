@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from graphkin.diagnosis.exact_intersection import clearance, gap_of, meet, stated_loci
+from graphkin.diagnosis.assembly_failure import clearance, gap_of, meet, stated_loci
 from graphkin.numbers.exact import Exact, IrrationalError, root
 from graphkin.numbers.plane import Circle, Line, circle_meets_circle
 from graphkin.text.errors import ClosureError

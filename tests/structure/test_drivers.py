@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from graphkin.construction.core.solution import Solution
-from graphkin.loops.freedom import true_mobility
+from graphkin.loops.assemble import true_mobility
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose

@@ -17,10 +17,9 @@ from urllib.request import url2pathname
 import pytest
 from click.testing import CliRunner
 
-from graphkin.cli import studio_command
+from graphkin.cli import page_commands
 from graphkin.cli.main import app
-from graphkin.studio.redirect import Redirect
-from graphkin.studio.server import Served, serve
+from graphkin.studio.server import Redirect, Served, serve
 from graphkin.studio.session import Session
 from graphkin.text.errors import PageError
 from tests.studio.pump import PUMP, desk_in, running
@@ -94,10 +93,8 @@ def test_without_its_libraries_it_says_what_to_install(tmp_path, monkeypatch):
 
 
 def test_without_its_packages_it_says_what_to_install(monkeypatch):
-    monkeypatch.setattr(
-        studio_command, "find_spec", lambda name: None if name == "bottle" else name
-    )
-    result = CliRunner().invoke(studio_command.studio, ["--no-browser"])
+    monkeypatch.setattr(page_commands, "find_spec", lambda name: None if name == "bottle" else name)
+    result = CliRunner().invoke(page_commands.studio, ["--no-browser"])
     assert result.exit_code == 2
     assert "the studio needs bottle: pip install '.[studio]'" in result.output
 
@@ -121,7 +118,7 @@ def test_the_browser_is_led_by_a_file_of_this_user_alone_and_never_given_the_tok
 
     monkeypatch.setattr("graphkin.studio.server.serve", serving)
     monkeypatch.setattr("webbrowser.open", opened.append)
-    result = CliRunner().invoke(studio_command.studio, ["one.toml"])
+    result = CliRunner().invoke(page_commands.studio, ["one.toml"])
     assert result.exit_code == 0, result.output
     assert "secret" not in opened[0]
     _, (path, text, mode) = found

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.lab.fair_ranges import fair_ranges
 from graphkin.classroom.lab.lab_trial import tried
-from graphkin.classroom.lab.proposed_ranges import proposed_ranges
+from graphkin.classroom.lab.new_lab import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.studio.folder import shipped_rules, shipped_text
 from graphkin.studio.lab_panel import LabProposal, LabTexts, beside, lab_advice, trial_of

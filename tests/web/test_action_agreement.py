@@ -8,8 +8,8 @@ from typing import Any
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.vocabulary import Action
 from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.construction.tape.emitted import MATH, script_source
 from graphkin.construction.tape.graph import Graph
-from graphkin.construction.tape.javascript import MATH, script_source
 from graphkin.construction.tape.traced import TracedNumber
 from graphkin.mechanism import load
 from tests.chosen import SCENES

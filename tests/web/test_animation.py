@@ -14,15 +14,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import astuple
 
-from graphkin.construction.bare_plan import plan_box
 from graphkin.construction.frame_over_motion import STILL
+from graphkin.construction.step_marks import plan_box
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.scale import Extent
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.text import words
 from graphkin.web import frames
-from graphkin.web.animation import PAUSE, gif
 from graphkin.web.animation_pictures import (
     AIR,
     AREA,
@@ -48,7 +47,7 @@ from graphkin.web.animation_pictures import (
 )
 from graphkin.web.frames import GROWN, FrameSequence, motion
 from graphkin.web.moving_labels import COVERED, GAP, LETTER, crossed, obstacles, price
-from graphkin.web.player import player_page, vector_names
+from graphkin.web.player import PAUSE, gif, player_page, vector_names
 from graphkin.web.screen_sheets import screen_sheets
 from tests.chosen import EVERY
 from tests.running import Run

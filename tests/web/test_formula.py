@@ -18,7 +18,7 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 from openpyxl import load_workbook
 
-from graphkin.cli.export_command import export
+from graphkin.cli.exchange_commands import export
 from graphkin.cli.main import app
 from graphkin.documents.program_files import PROGRAMS
 from graphkin.mechanism import Mechanism, load
@@ -26,8 +26,7 @@ from graphkin.motion.driving import stated_motion
 from graphkin.motion.sweep import law_of_time
 from graphkin.scene.link_points import is_under
 from graphkin.text.errors import GraphkinError, SceneError
-from graphkin.web.formula import LANGUAGES, Formula, formula_of
-from graphkin.web.formula_workbook import formula_workbook
+from graphkin.web.formula import LANGUAGES, Formula, formula_of, formula_workbook
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 TOLERANCE = 1e-9

@@ -7,8 +7,7 @@ from functools import cache
 
 import pytest
 
-from graphkin.construction.core.plan_vector import sign_of
-from graphkin.construction.core.program import Part
+from graphkin.construction.core.program import Part, sign_of
 from graphkin.drawing.style import BY_SIGN
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import load

@@ -264,7 +264,7 @@ def test_a_folder_that_cannot_be_written_is_read_where_nothing_was_moved_yet(
 def test_a_run_that_writes_at_this_moment_is_waited_for(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from graphkin.writers.lock import locked
+    from graphkin.writers.commit import locked
 
     (folder / UNFINISHED).mkdir()
     looked = []

@@ -14,8 +14,8 @@ from xml.etree import ElementTree as ET
 import pypdf
 import pytest
 
+from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.segments import TINY
 from graphkin.construction.normal_component.normal_component import NormalComponent
 from graphkin.drawing.marks import LineMark
 from graphkin.numbers.plane import Vector

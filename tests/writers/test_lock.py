@@ -14,14 +14,14 @@ from threading import Thread
 import pytest
 
 from graphkin.text.errors import PageError
+from graphkin.writers.commit import HOLDER, LOCK, locked
 from graphkin.writers.files import write_all
-from graphkin.writers.lock import HOLDER, LOCK, locked
 
 ROOT = Path(__file__).resolve().parents[2]
 HOLD = """
 import sys
 from pathlib import Path
-from graphkin.writers.lock import locked
+from graphkin.writers.commit import locked
 with locked(Path(sys.argv[1])):
     print("held", flush=True)
     sys.stdin.read()

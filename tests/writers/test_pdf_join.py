@@ -10,8 +10,7 @@ import pytest
 
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
 from graphkin.drawing.marks import Page, Text
-from graphkin.writers.pdf import write_pdf
-from graphkin.writers.pdf_join import PdfPart, join
+from graphkin.writers.pdf import PdfPart, join, write_pdf
 
 
 def a3(text):

@@ -1,24 +1,33 @@
-"""The exact drawing: its values and scales, and the steps that a pencil gets wrong."""
+"""The exact drawing: its values and scales, and the steps that a pencil gets wrong.
+
+The answers read off a drawing: vectors, rates and places, their errors and scales.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from math import isfinite
 from typing import Any
 
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.pencil import Paper, PencilMark, mark_of
 from graphkin.construction.core.component import component_of, has_many_triangles
-from graphkin.construction.core.plan_vector import sign_of
-from graphkin.construction.core.program import Program, Target
-from graphkin.construction.core.quantities import EPSILON
+from graphkin.construction.core.program import Program, Step, Target, sign_of
+from graphkin.construction.core.quantities import (
+    BALANCING_MOMENT,
+    BY_TARGET,
+    EPSILON,
+    RATES,
+    MotionQuantity,
+)
 from graphkin.construction.core.run import Trace
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
-from graphkin.numbers.plane import by_parts, cross
+from graphkin.numbers.plane import Ratio, by_parts, cross
 
 SAME = 1e-9
 """The share by which an arrow may differ from the vector that is read and count as the same."""
@@ -173,3 +182,87 @@ def original(
     trace = mechanism.trace(wanted, by_hand=True, seconds=scales.seconds)
     paper = Paper.of(scales)
     return Original(trace, paper, wanted, scales.triangles)
+
+
+FAR = 10.0
+"""Metres of paper beyond which a centre counts as at infinity, because no hand draws it."""
+
+
+class DrawnQuantity(Struct, frozen=True):
+    """One answer: its target, the step that gives it, its exact value and its scale.
+
+    ``unit`` is the answer's SI unit. ``millimetre`` is the amount of it that a millimetre of paper
+    represents, zero if the answer is not drawn.
+    """
+
+    target: Target
+    number: int
+    is_place: bool
+    value: Any
+    unit: str
+    millimetre: float
+
+    @property
+    def size(self) -> float | None:
+        """The size that a relative error refers to; None for a place, whose size has no meaning."""
+        return None if self.is_place else abs(self.value)
+
+    def of(self, found: Mapping[int, Any]) -> Any:
+        """The answer in some drawings, an element for each."""
+        value = found[self.number]
+        return placed(value) if self.is_place else value
+
+    def error(self, found: Mapping[int, Any]) -> Any:
+        """The difference of the answer from the exact one in some drawings."""
+        return self.of(found) - self.value
+
+
+def answers(original: Original) -> Iterator[DrawnQuantity]:
+    """The answers that depend on the drawing, in the order asked, without places at infinity.
+
+    A rate that is given, or zero because nothing turns, is not an answer of the drawing. Nor is an
+    auxiliary result, such as the angle through which a wheel has turned.
+    """
+    moved = frozenset(original.order)
+    for target in original.targets:
+        number = original.program.targets[target]
+        quantity = BY_TARGET.get(target[0])
+        if number not in moved or quantity is None or not quantity.words:
+            continue
+        found = answer(original, target, quantity, number)
+        if found is not None:
+            yield found
+
+
+def answer(
+    original: Original, target: Target, quantity: MotionQuantity, number: int
+) -> DrawnQuantity | None:
+    """One answer; None for a place that no drawing shows."""
+    value = original.trace.values[number]
+    mm = original.paper.millimetre(quantity.plane)
+    if quantity.is_place:
+        value = placed(value)
+        if value is None or not isfinite(abs(value)) or abs(value) > FAR * 1000 * mm:
+            return None
+    elif quantity is BALANCING_MOMENT:
+        mm = 0.0
+    elif quantity in RATES:
+        mm = mm / bar_of(original, original.program.steps[number])
+    return DrawnQuantity(target, number, quantity.is_place, value, quantity.unit, mm)
+
+
+def bar_of(original: Original, step: Step) -> float:
+    """The length of the bar from whose relative vector a rate is read; infinite without a bar."""
+    if len(step.args) == 4:
+        p, q = (original.trace.values[arg] for arg in step.args[:2])
+        return abs(q - p) if isinstance(p, complex) and isinstance(q, complex) else float("inf")
+    return float("inf")
+
+
+def placed(value: Any) -> Any:
+    """The point of a centre, by construction or by hand; None for one at infinity."""
+    if not isinstance(value, Ratio):
+        return value
+    if not hasattr(value.size, "shape") and value.size == 0:
+        return None
+    return value.start + value.shift / value.size

@@ -21,7 +21,6 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer, with_unit
 from graphkin.classroom.grading.graded import THOUSANDS, WAITING, Answer
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.read_roster import LONGEST_ID, NAMES
 from graphkin.classroom.roster.spreadsheets import (
     LARGEST,
@@ -36,7 +35,8 @@ from graphkin.classroom.roster.spreadsheets import (
     row_of,
     sheet_in,
 )
-from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
+from graphkin.classroom.roster.students import EMAIL, Match, Signs
+from graphkin.classroom.roster.students import HEADS as LANGUAGE
 from graphkin.scene.file_limits import file_bytes
 from graphkin.scene.findings import near_name, nearest, visible
 from graphkin.text.errors import (

@@ -32,11 +32,10 @@ from graphkin.classroom.grading.marking import (
 )
 from graphkin.classroom.grading.others_data import with_others_data, with_own_causes
 from graphkin.classroom.grading.standard import Expectation, standard
-from graphkin.classroom.lab.cause_names import ANOTHER
 from graphkin.classroom.lab.items import items
-from graphkin.classroom.lab.lab_model import Item, Lab
+from graphkin.classroom.lab.lab_model import ANOTHER, Item, Lab
 from graphkin.classroom.printing.workers import chunks, engine
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError, Problem, Refusals

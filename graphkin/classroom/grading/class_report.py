@@ -25,8 +25,7 @@ from graphkin.classroom.grading.graded import (
     Suspicion,
 )
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.drawing.richtext import pieces, plain
 from graphkin.text import LANGUAGES, Words
 from graphkin.writers.plot_style import INK, figure_file, look, new_figure

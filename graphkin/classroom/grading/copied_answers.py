@@ -31,7 +31,7 @@ from graphkin.classroom.grading.likelihood import (
     reported_odds,
 )
 from graphkin.classroom.grading.standard import Expectation
-from graphkin.classroom.lab.cause_names import ANOTHER
+from graphkin.classroom.lab.lab_model import ANOTHER
 from graphkin.numbers.arithmetic import np
 
 FEW = 3

@@ -25,8 +25,7 @@ from graphkin.classroom.roster.spreadsheets import (
     folded,
     read_sheet,
 )
-from graphkin.classroom.roster.student_signs import Signs
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Signs, Taker
 from graphkin.scene.findings import nearest, shown
 from graphkin.text.errors import NO_WORDS, InTable, Problem, SceneError, message
 

@@ -31,8 +31,8 @@ from graphkin.classroom.roster.spreadsheets import (
     separator_of,
     too_large,
 )
-from graphkin.classroom.roster.student_signs import EMAIL, Match, Signs
-from graphkin.classroom.roster.student_signs import signs as signs_of
+from graphkin.classroom.roster.students import EMAIL, Match, Signs
+from graphkin.classroom.roster.students import signs as signs_of
 from graphkin.text.errors import NO_WORDS, GraphkinError, Problem, RosterError, joined, message
 
 COMMA = re.compile(r"[0-9]+,[0-9]+")

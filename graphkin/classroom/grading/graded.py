@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct, field
 
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.text.errors import Problem
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from graphkin.classroom.grading.feedback import DrawingBack, feedback_html, feed
 from graphkin.classroom.grading.graded import Decision, EarnedCause, Graded, Result, Status
 from graphkin.classroom.grading.standard import Expectation
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.printing.file_names import stems
+from graphkin.classroom.printing.edition import stems
 from graphkin.scene.model import Scene
 from graphkin.text import Words
 from graphkin.text.errors import Refusals

@@ -13,8 +13,7 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil.forecast import chi_square_share
 from graphkin.classroom.grading.answer_numbers import significant
 from graphkin.classroom.grading.explanations import SheetCauses, explanations
-from graphkin.classroom.grading.follow_through import followings, is_hit, rightly
-from graphkin.classroom.grading.form_relations import Following
+from graphkin.classroom.grading.follow_through import Following, followings, is_hit, rightly
 from graphkin.classroom.grading.graded import (
     BLANK,
     THOUSANDS,
@@ -29,7 +28,7 @@ from graphkin.classroom.grading.likelihood import Key
 from graphkin.classroom.grading.standard import Expectation, Standard, alike, sense_is_open
 from graphkin.classroom.lab.items import worth
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.numbers.arithmetic import np
 
 FEW = 3

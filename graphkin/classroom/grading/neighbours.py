@@ -19,8 +19,7 @@ from graphkin.classroom.grading.marking import is_one_drawing
 from graphkin.classroom.grading.standard import Standard, sense_is_open
 from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.items import items, worth
-from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.lab.lab_model import Lab, exact_text
 from graphkin.numbers.arithmetic import np
 
 Array = Any

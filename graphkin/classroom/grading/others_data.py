@@ -22,11 +22,17 @@ from graphkin.classroom.grading.explanations import (
 from graphkin.classroom.grading.graded import Answer, Graded, Status
 from graphkin.classroom.grading.marking import Marker, unread_left_out
 from graphkin.classroom.grading.standard import Errors, Expectation, Standard, standard
-from graphkin.classroom.lab.cause_names import ANOTHER
-from graphkin.classroom.lab.lab_model import Item, Lab, OwnCause
-from graphkin.classroom.lab.rules import exact_text, outside, settings, sheets
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.lab.lab_model import (
+    ANOTHER,
+    Item,
+    Lab,
+    OwnCause,
+    exact_text,
+    outside,
+    settings,
+    sheets,
+)
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
 from graphkin.text.errors import GraphkinError, SceneError

@@ -11,9 +11,8 @@ from typing import Any, NamedTuple
 from msgspec import Struct
 
 from graphkin.accuracy.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIGHT, sources
-from graphkin.accuracy.pencil.original import Original, original, together
+from graphkin.accuracy.pencil.original import Original, bar_of, original, together
 from graphkin.accuracy.pencil.pencil import STRAIGHT, Paper, Pencil, PencilMark
-from graphkin.accuracy.pencil.read_off import bar_of
 from graphkin.accuracy.pencil.redrawing import COMMON, redrawn
 from graphkin.classroom.grading.probes import Probe, probes, targets_of
 from graphkin.classroom.lab.items import motion_of
@@ -21,7 +20,7 @@ from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.construction.core.program import Drive, Plane, Program, Target
 from graphkin.construction.core.quantities import BALANCING_MOMENT, FORCES
 from graphkin.construction.core.run import StepFailed, run
-from graphkin.documents.force_sheets import force_scales
+from graphkin.documents.force_fields import force_scales
 from graphkin.documents.scaling import scales
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism

@@ -16,8 +16,7 @@ from msgspec import Struct, field
 from msgspec.structs import astuple
 
 from graphkin.classroom.lab.items import arrow_steps, items, motion_of
-from graphkin.classroom.lab.lab_model import Fair, Item, Lab
-from graphkin.classroom.lab.rules import Settings
+from graphkin.classroom.lab.lab_model import Fair, Item, Lab, Settings
 from graphkin.classroom.lab.variant_scales import VariantSheet, boxes, scaling, sketches, taken
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import is_drawn, letter_of

@@ -8,9 +8,16 @@ from math import isnan
 
 from graphkin.classroom.grading.neighbours import Neighbours
 from graphkin.classroom.lab.fairness import Fault
-from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, ValueList
+from graphkin.classroom.lab.lab_model import (
+    Fair,
+    Lab,
+    LabRule,
+    Range,
+    Settings,
+    ValueList,
+    exact_text,
+)
 from graphkin.classroom.lab.lab_trial import LabTrial, quantiles
-from graphkin.classroom.lab.rules import Settings, exact_text
 from graphkin.construction.registry import LIMITED
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import ratio

@@ -16,8 +16,7 @@ from fractions import Fraction
 from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Item, Lab
-from graphkin.construction.core.plan_vector import PlanVector, plan_vector
-from graphkin.construction.core.program import Program
+from graphkin.construction.core.program import PlanVector, Program, plan_vector
 from graphkin.construction.core.quantities import (
     BY_TARGET,
     CENTRES,
@@ -29,7 +28,7 @@ from graphkin.construction.core.quantities import (
     MotionQuantity,
     names_asked,
 )
-from graphkin.construction.forces.force_words import is_asked
+from graphkin.construction.forces.loads import is_asked
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.forces import Forces

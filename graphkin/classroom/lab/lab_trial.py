@@ -9,9 +9,8 @@ from msgspec import Struct
 from graphkin.classroom.grading.neighbours import Neighbours, compared, pencil_faults
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.items import asked_fields, items
-from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.rules import Settings, outside, settings, sheets
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.lab.lab_model import Lab, Settings, outside, settings, sheets
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import Assigned, assigned, held_against
 from graphkin.numbers.arithmetic import np
 from graphkin.text.errors import Problem, SceneError, message

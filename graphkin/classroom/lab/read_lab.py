@@ -13,11 +13,11 @@ from typing import cast
 
 from msgspec.structs import replace
 
-from graphkin.classroom.lab.cause_names import NAMES as CAUSES
-from graphkin.classroom.lab.cause_names import SHARES
 from graphkin.classroom.lab.items import all_fields
+from graphkin.classroom.lab.lab_model import NAMES as CAUSES
 from graphkin.classroom.lab.lab_model import (
     NUMBER,
+    SHARES,
     Fair,
     Lab,
     LabRule,

@@ -1,10 +1,14 @@
-"""The edition to print: the manifest of a class folder, checked against its copy of the lab."""
+"""The edition to print: the manifest of a class folder, checked against its copy of the lab.
+
+File names from arbitrary ids: plain letters only, all different, all inside the folder.
+"""
 
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
@@ -14,22 +18,19 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.roster.language_names import HEADS
 from graphkin.classroom.roster.spreadsheets import columns, read_sheet
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.student_signs import EMAIL, Signs, signs
-from graphkin.classroom.roster.taker import Taker
-from graphkin.classroom.variants.manifest import COPY, FORMAT, MANIFEST, TABLE, as_text
+from graphkin.classroom.roster.students import EMAIL, HEADS, Signs, Student, Taker, signs
+from graphkin.classroom.variants.assign import COPY, FORMAT, MANIFEST, TABLE, as_text
 from graphkin.documents.sheet_documents import language_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.file_limits import whole_file
 from graphkin.scene.house import PLAIN
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, Words
-from graphkin.text.errors import NO_WORDS, Problem, SceneError, either, message
+from graphkin.text.errors import NO_WORDS, PageError, Problem, SceneError, either, joined, message
 from graphkin.text.tables import safe
 from graphkin.writers.commit import reason_of, settle
-from graphkin.writers.files import write_all
+from graphkin.writers.files import RESERVED, write_all
 
 if TYPE_CHECKING:
     from graphkin.classroom.grading.class_marking import Book
@@ -287,3 +288,73 @@ def beside_ids(folder: Path) -> dict[str, dict[str, str]]:
         row.cells[own]: {what: row.cells[column] for what, column in where.items()}
         for row in sheet.rows
     }
+
+
+LONGEST = 48
+"""The most characters of an id in a file name."""
+SHOWN = 3
+"""The most files in the way that a message names."""
+STRANGE = r"[^A-Za-z0-9_-]+"
+
+
+def stems(ids: Sequence[str], codes: Sequence[str]) -> list[str]:
+    """The beginning of each student's file names: the id if it is plain letters and digits.
+
+    Other signs become ``_``. The student's opaque code is appended to such an id, to one that a
+    system reserves for a device, and to ids that differ only in case. All stems are different,
+    regardless of case, whatever the ids and codes.
+    """
+    plain = [re.sub(STRANGE, "_", text)[:LONGEST] for text in ids]
+    times = Counter(name.lower() for name in plain)
+    kept = [
+        name == text and times[name.lower()] == 1 and is_fit(name)
+        for text, name in zip(ids, plain, strict=True)
+    ]
+    taken = {name.lower() for name, keep in zip(plain, kept, strict=True) if keep}
+    found: list[str] = []
+    for name, keep, code in zip(plain, kept, codes, strict=True):
+        tail = re.sub(STRANGE, "_", code).lower()
+        found.append(name if keep else unused(f"{name.strip('_-') or 'id'}-{tail}", taken))
+        taken.add(found[-1].lower())
+    return found
+
+
+def is_fit(name: str) -> bool:
+    """Whether a plain name can be a file name: not empty, no device, no leading hyphen."""
+    return bool(name) and name.upper() not in RESERVED and name[0] != "-"
+
+
+def unused(name: str, taken: Set[str]) -> str:
+    """The name, or the name with the lowest number that makes it unused."""
+    tried, number = name, 1
+    while tried.lower() in taken:
+        number += 1
+        tried = f"{name}-{number}"
+    return tried
+
+
+def inside(folder: Path, name: str) -> Path:
+    """The path of a file in a folder. Raises PageError if links lead out of the folder."""
+    path = folder / name
+    whole = folder.resolve()
+    if not path.resolve().is_relative_to(whole):
+        found = message("leads to {folder}", folder=path.resolve())
+        raise PageError(
+            Problem(
+                str(path),
+                found,
+                message("a file in {whole}", whole=whole),
+                message("remove the link"),
+            )
+        )
+    return path
+
+
+def in_the_way(folder: Path, names: Sequence[str], unlike: Sequence[str] = ()) -> Problem:
+    """The problem of existing files where others are to go; ``unlike`` says what differs."""
+    there, more = joined(", ", names[:SHOWN]), len(names) - SHOWN
+    if more > 0:
+        there = message("{names} and {count} more", names=there, count=more)
+    why = joined("; ", unlike) or message("made from other data or settings")
+    found = message("{names}: there already, {why}", names=there, why=why)
+    return Problem(str(folder), found, hint=message("--force replaces what is in the way"))

@@ -10,8 +10,7 @@ from unicodedata import category, normalize
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sheet_documents import FOOT
 from graphkin.drawing.field import A3, A4_AREA, A4_SIZE, Rect, SheetPaper

@@ -10,9 +10,9 @@ from threading import Lock
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.classroom.form_page import form, quantity_of, why
 from graphkin.classroom.lab.items import asked_of, items
 from graphkin.classroom.lab.lab_model import Item, Lab
-from graphkin.classroom.printing.answer_form import form, quantity_of, why
 from graphkin.classroom.printing.personal import (
     Owner,
     crossed,
@@ -23,7 +23,7 @@ from graphkin.classroom.printing.personal import (
     signed,
     with_owner,
 )
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import parameters
 from graphkin.documents.calculation import calculation

@@ -19,21 +19,18 @@ from markupsafe import Markup
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.form_page import KINDS, first_pivot
+from graphkin.classroom.form_page import KINDS, advice, first_pivot
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.explanations import CauseWay, ways_of
 from graphkin.classroom.grading.feedback import SENSES, how
 from graphkin.classroom.grading.graded import BLANK
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import sense_is_open
-from graphkin.classroom.lab.lab_model import Item, Lab
+from graphkin.classroom.lab.lab_model import Item, Lab, exact_text
 from graphkin.classroom.lab.lab_trial import students_of
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.printing.answer_form import advice
 from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
 from graphkin.classroom.printing.workers import chunks, engine, results
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.classroom.variants.assign import Assigned, assigned
 from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import CLOCKWISE

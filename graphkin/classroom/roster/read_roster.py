@@ -12,7 +12,6 @@ from pathlib import Path
 
 from msgspec import Struct, field
 
-from graphkin.classroom.roster.language_names import HEADS as LANGUAGE
 from graphkin.classroom.roster.spreadsheets import (
     SheetRow,
     Spreadsheet,
@@ -21,8 +20,8 @@ from graphkin.classroom.roster.spreadsheets import (
     folded,
     read_sheet,
 )
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.student_signs import EMAIL
+from graphkin.classroom.roster.students import EMAIL, Student
+from graphkin.classroom.roster.students import HEADS as LANGUAGE
 from graphkin.scene.findings import nearest, shown, visible
 from graphkin.text.errors import NO_WORDS, InTable, Message, Problem, either, joined, message
 

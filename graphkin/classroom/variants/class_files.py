@@ -20,11 +20,18 @@ from graphkin.classroom.lab.fairness_words import (
     spread_table,
     spreads,
 )
-from graphkin.classroom.lab.lab_model import Lab
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.variants.assign import Assigned, held_against
-from graphkin.classroom.variants.manifest import COPY, MANIFEST, TABLE, as_text, code, manifest
+from graphkin.classroom.lab.lab_model import Lab, exact_text
+from graphkin.classroom.roster.students import Student
+from graphkin.classroom.variants.assign import (
+    COPY,
+    MANIFEST,
+    TABLE,
+    Assigned,
+    as_text,
+    code,
+    held_against,
+    manifest,
+)
 from graphkin.scene.file_limits import whole_file
 from graphkin.text import words
 from graphkin.text.tables import csv_text, labelled, table

@@ -1,4 +1,7 @@
-"""The text of check: the parts of a scene, how it closes, and how well it can be drawn."""
+"""The text of check: the parts of a scene, how it closes, and how well it can be drawn.
+
+What check says of a house.toml: the conventions that it states.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,9 @@ from fractions import Fraction
 from itertools import combinations, islice
 from math import degrees, isinf, pi
 
-from msgspec.structs import replace
+from msgspec.structs import fields, replace
 
-from graphkin.cli.report.crossing_words import crossing
-from graphkin.cli.report.motion_report import flat_words, is_flat, verdict_words
+from graphkin.cli.report.motion_report import crossing, flat_words, is_flat, verdict_words
 from graphkin.cli.report.solution_record import heading
 from graphkin.construction.compile import write
 from graphkin.construction.core.branches import translated
@@ -23,8 +25,9 @@ from graphkin.construction.core.solution import gathered
 from graphkin.construction.links.rolled_turn import counted_link
 from graphkin.diagnosis.closures import Choice, choices
 from graphkin.diagnosis.ranges import ClosingRanges, closing, reached_words
-from graphkin.loops.freedom import true_mobility
+from graphkin.loops.assemble import true_mobility
 from graphkin.mechanism import Mechanism
+from graphkin.scene.house import PLAIN, House
 from graphkin.scene.model import FRAME, Cam, Driver, Scene, joined_words, link_words
 from graphkin.scene.quantity import LENGTHS, SI, exact
 from graphkin.structure.decomposition import decompose
@@ -34,6 +37,7 @@ from graphkin.structure.groups import Group, Higher, Tie
 from graphkin.structure.pairs import all_pairs, sharers
 from graphkin.structure.turn_counting import place_of_turns
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, StructureError, WitnessError
+from graphkin.text.school_signs import NAMES, USUAL
 from graphkin.text.tables import labelled, listed, table
 
 Places = Mapping[str, complex]
@@ -658,3 +662,35 @@ def sentence(scene: Scene, one: str, other: str) -> str:
         f"{who[0]} falls on {who[1]} in this closure; "
         "if that is not meant, take another closure or another position of the driver"
     )
+
+
+def house_lines(house: House) -> Iterator[str]:
+    """The conventions that differ from the usual ones, by their keys."""
+    settings = list(stated(house))
+    for name, value in settings:
+        yield from labelled(name, [value], 9)
+    if not settings:
+        yield "all conventions are the usual ones"
+
+
+def stated(house: House) -> Iterator[tuple[str, str]]:
+    """The name and the value of each convention that is stated."""
+    for each in fields(House):
+        value = getattr(house, each.name)
+        if value == getattr(PLAIN, each.name) or each.name in ("text", "signs"):
+            continue
+        if house.logo is not None and each.name == "logo":
+            yield "logo", house.logo.name
+        elif isinstance(value, tuple):
+            yield (
+                each.name,
+                "; ".join(f"{one:g}" if isinstance(one, float) else one for one in value),
+            )
+        elif isinstance(value, dict):
+            yield each.name, ", ".join(f"{key}: {label}" for key, label in value.items())
+        else:
+            yield each.name, str(value)
+    own = [(name, getattr(house.signs, name)) for name in NAMES]
+    changed = [f"{name} {sign}" for name, sign in own if sign != getattr(USUAL, name)]
+    if changed:
+        yield "signs", ", ".join(changed)

@@ -353,8 +353,8 @@ def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
 
 def return_words(path: Path) -> Iterator[str]:
     """The position of the mechanism after a turn of the driver, if it is not the initial one."""
-    from graphkin.motion.period import MOST_TURNS
     from graphkin.motion.pieces import strangers
+    from graphkin.motion.turns_followed import MOST_TURNS
 
     if path.turns == 1:
         return
@@ -372,7 +372,7 @@ def return_words(path: Path) -> Iterator[str]:
 
 def circle_words(path: Path) -> Iterator[str]:
     """How often the ranges of a driver that stops repeat."""
-    from graphkin.motion.period import MOST_TURNS
+    from graphkin.motion.turns_followed import MOST_TURNS
 
     if path.turns > 1:
         yield f"they come again after every {path.turns} turns of the driver, as the wheels do"

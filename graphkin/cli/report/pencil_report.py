@@ -18,8 +18,7 @@ from graphkin.construction.core.crossings import (
     letter_of,
 )
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part, Program, Step
+from graphkin.construction.core.program import Part, Program, Step, plan_vector
 from graphkin.text.tables import at_the_point, listed, table
 
 UNSURE = 0.1

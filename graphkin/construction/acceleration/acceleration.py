@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from graphkin.construction.core.arrows import acceleration_arrow, slide_arrow
 from graphkin.construction.core.component import LaidOff
-from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.pen import Pen, acceleration_arrow, slide_arrow
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.plan import ACCELERATION, VELOCITY
+from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.construction.velocity.lines_through import parallel_through
 from graphkin.scene.link_points import is_under
 from graphkin.structure.joints import partner

@@ -11,13 +11,12 @@ from typing import ClassVar
 
 from msgspec import Struct
 
-from graphkin.construction.core.arrows import acceleration_arrow, component_arrow
 from graphkin.construction.core.component import component_ending_at
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.naming import letter_at
 from graphkin.construction.core.palette import PERPENDICULAR, KnownError, Picks
-from graphkin.construction.core.pen import Pen, about, letter
+from graphkin.construction.core.pen import Pen, about, acceleration_arrow, component_arrow, letter
 from graphkin.construction.core.program import Step
-from graphkin.construction.core.segments import letter_at
 from graphkin.construction.normal_component.normal_component import (
     lay_off_normal,
     normal_component,
@@ -84,7 +83,7 @@ class BarAcceleration(Struct, frozen=True):
         """The known normal component, drawn by the method that the scene asks for in a dyad."""
         if sides is None or pen.scene.sheet.method != KLEIN:
             return normal_component(pen, self.pivot, self.point)
-        from graphkin.construction.normal_component.klein import component_in_dyad
+        from graphkin.construction.normal_component.normal_component import component_in_dyad
 
         return component_in_dyad(pen, sides, self.pivot, self.point)
 
@@ -119,6 +118,6 @@ def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
 def refuse_unused_method(pen: Pen) -> None:
     """Raise StructureError where the scene's method for components applies to none of them."""
     if pen.scene.sheet.method == KLEIN:
-        from graphkin.construction.normal_component.klein import refuse_unused
+        from graphkin.construction.normal_component.normal_component import refuse_unused
 
         refuse_unused(pen)

@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
-from graphkin.construction.core.arrows import component_arrow
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, EndsComponent, GivenVector
-from graphkin.construction.core.naming import has_no_length, rate_symbol
-from graphkin.construction.core.pen import Pen, about, letter
+from graphkin.construction.core.naming import has_no_length, letter_at, rate_symbol
+from graphkin.construction.core.pen import Pen, about, component_arrow, letter
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
 from graphkin.construction.velocity.turned_velocity import (
     LaidOffAboutPivot,

@@ -19,13 +19,11 @@ from graphkin.construction.core.kind import (
     construction,
     constructions,
 )
-from graphkin.construction.core.naming import drawn_between, plan_amount
+from graphkin.construction.core.naming import TINY, drawn_between, is_short, letter_at, plan_amount
 from graphkin.construction.core.palette import PaletteAction, Picks
-from graphkin.construction.core.plan_vector import sign_of
-from graphkin.construction.core.program import Effect, Part, Plane, Program
+from graphkin.construction.core.program import Effect, Part, Plane, Program, sign_of
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.run import Trace
-from graphkin.construction.core.segments import TINY, is_short, letter_at
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
 from graphkin.text.markup import EQUALS, NOTHING, Markup

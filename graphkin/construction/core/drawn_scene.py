@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct, field
 
 from graphkin.construction.core.link_poses import LinkPoses
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Part, PlanAside, Plane, Step
+from graphkin.construction.core.program import Part, PlanAside, Plane, Step, plan_vector
 from graphkin.construction.core.quantities import (
     MOTION,
     PLANES,

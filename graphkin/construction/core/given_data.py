@@ -22,8 +22,8 @@ from graphkin.construction.core.naming import (
 from graphkin.construction.core.pen import letter
 from graphkin.construction.core.quantities import in_degrees, number_of, quantity_text, unit_words
 from graphkin.construction.core.relation import figure
-from graphkin.construction.guides.dyad_by_arc_and_guide import arcs_finding
 from graphkin.construction.guides.swung_guide import SwungGuide
+from graphkin.construction.links.dyad_by_arcs import arcs_finding
 from graphkin.construction.links.rolled_turn import counted_link
 from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.scene.expression import CONSTANT, TIME

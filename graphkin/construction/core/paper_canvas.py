@@ -15,11 +15,9 @@ from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.layout import BEYOND, SWEEP, Layout, arc_span
-from graphkin.construction.core.naming import scale_of
-from graphkin.construction.core.plan_vector import plan_vector, sign_of
-from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.naming import NEAR, TINY, scale_of
+from graphkin.construction.core.program import Plane, Step, plan_vector, sign_of
 from graphkin.construction.core.quantities import OnPaper, in_mm
-from graphkin.construction.core.segments import NEAR, TINY
 from graphkin.construction.core.solution import Curve
 from graphkin.drawing.field import XY, Field, Rect, clipped
 from graphkin.drawing.labels import FieldContent, FootNote, Label

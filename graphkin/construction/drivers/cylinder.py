@@ -3,8 +3,14 @@
 from __future__ import annotations
 
 from graphkin.construction.acceleration.acceleration import end_on_driven
-from graphkin.construction.core.arrows import slide_arrow, velocity_arrows
-from graphkin.construction.core.pen import Pen, image, letter, second_image
+from graphkin.construction.core.pen import (
+    Pen,
+    image,
+    letter,
+    second_image,
+    slide_arrow,
+    velocity_arrows,
+)
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.group_images import GroupImages, sliding_effect

@@ -12,13 +12,13 @@ from graphkin.construction.core.naming import (
     driver_index,
     driver_of_rate,
     has_no_length,
+    letter_at,
     nearest_side,
     vector_of,
 )
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
-from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AlongGuide
 from graphkin.construction.velocity.turned_velocity import LaidOffByRate, falls_key, length_drawn

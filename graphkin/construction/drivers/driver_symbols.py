@@ -9,9 +9,8 @@ from typing import NamedTuple
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.naming import angle_symbol, driver_index
 from graphkin.construction.core.quantities import in_degrees, quantity_text
-from graphkin.construction.guides.pivot_grounds import ground_ways
-from graphkin.construction.guides.rails import seat
-from graphkin.construction.guides.slide_symbols import within
+from graphkin.construction.guides.slide_symbols import ground_ways, within
+from graphkin.construction.links.link_shapes import seat
 from graphkin.drawing.field import XY, Field
 from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Arc, LineMark, Mark, Shown, showing

@@ -22,19 +22,20 @@ from graphkin.construction.core.quantities import (
     PAIR_REACTION,
 )
 from graphkin.construction.core.vocabulary import along_bar
-from graphkin.construction.forces.balance import balance_of
-from graphkin.construction.forces.force_words import link_pair, sub
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import along_line, foot_on_line, in_order, meeting
 from graphkin.construction.forces.loads import (
     LinkForce,
     PassedReaction,
     applied,
+    link_pair,
     loads_of,
     opposite,
+    sub,
 )
 from graphkin.construction.forces.moments import (
     Moments,
+    balance_of,
     balancing_moment,
     couple_on_guide,
     moments_about,

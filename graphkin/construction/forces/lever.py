@@ -17,8 +17,7 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.force_words import newtons, on_lever, signed
-from graphkin.construction.forces.loads import LENGTH, LinkForce
+from graphkin.construction.forces.loads import LENGTH, LinkForce, newtons, on_lever, signed
 from graphkin.construction.forces.moments import SEEN, arm, of_moments, right_angle
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol

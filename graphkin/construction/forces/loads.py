@@ -2,12 +2,14 @@
 
 The inertia force −m·a_S is laid off against s′ of the acceleration plan. The inertia moment −J·ε
 moves it sideways by h = J·ε/(m·a_S), so that one force replaces both.
+
+Numbers of forces as printed, in N and in mm of a polygon.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import pairwise, permutations
 from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
@@ -15,19 +17,90 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Slip, constructions
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.quantities import EPSILON, in_mm, quantity_text
+from graphkin.construction.core.program import Part, Plane, Target
+from graphkin.construction.core.quantities import (
+    EPSILON,
+    FORCES,
+    PAIR_REACTION,
+    OnPaper,
+    in_mm,
+    quantity_text,
+)
 from graphkin.construction.core.relation import Relation, answer, put_in
 from graphkin.construction.core.vocabulary import action, distance
-from graphkin.construction.forces.force_words import newtons, sub
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, modulo, pick
 from graphkin.numbers.plane import dot
 from graphkin.scene.forces import ByDriver, Directed, Forces, Load, Mass, Size, Spring
 from graphkin.scene.link_points import lettered
-from graphkin.scene.model import FRAME
+from graphkin.scene.model import FRAME, Scene
 from graphkin.text.markup import COMMA, saying
+
+
+def newtons(drawing: Drawing, size: float) -> str:
+    """A force as printed, in N."""
+    return f"{answer(drawing, size)} N"
+
+
+def drawn_force(drawing: Drawing, size: float) -> OnPaper:
+    """The drawn length of a force in a polygon, in mm."""
+    return OnPaper(1000 * size / drawing.scales.kF)
+
+
+def on_lever(drawing: Drawing, speed: float) -> OnPaper:
+    """The drawn length of a velocity on the lever, in mm."""
+    return OnPaper(1000 * speed / drawing.scales.k_lever)
+
+
+def force_amount(drawing: Drawing, size: float) -> str:
+    """The drawn length of a force in a polygon, as text."""
+    return f"{in_mm(drawing.words, drawn_force(drawing, size))} mm"
+
+
+def signed(terms: Iterable[tuple[bool, str]]) -> str:
+    """A sum of terms with their signs; the first positive term comes first, without its sign."""
+    said, some = "", [*terms]
+    first = next((term for term in some if term[0]), None)
+    for positive, term in sorted(some, key=lambda term: term is not first):
+        sign = "+" if positive else "−"
+        said += f" {sign} {term}" if said else term if positive else f"−{term}"
+    return said
+
+
+def sub(sign: str, link: str) -> str:
+    """The index of a force or moment of a link after a sign: i3, or i,rod."""
+    return sign + link if link.isdigit() else f"{sign},{link}"
+
+
+def link_pair(one: str, other: str) -> str:
+    """The index of a force of one link on another: 34, or crank,rod."""
+    return one + other if len(one) == len(other) == 1 else f"{one},{other}"
+
+
+def is_asked(scene: Scene, forces: Forces, target: Target) -> bool:
+    """Whether a scene asks for a reaction or a balance, by its target in the plan of forces."""
+    quantity, name = target
+    if quantity == PAIR_REACTION.target:
+        return name in reaction_names(scene, forces.reactions)
+    return forces.balance and any(quantity == each.target for each in FORCES)
+
+
+def reaction_names(scene: Scene, asked: Iterable[str]) -> Iterator[str]:
+    """The symbols of the reactions in some pins and in all guides of some blocks, in both senses.
+
+    A plan draws one of the two senses.
+    """
+    for name in asked:
+        block = scene.links.get(name)
+        owners = [link.name for link in scene.every_link if name in link.points]
+        pairs = [*permutations(owners, 2)]
+        if block is not None:
+            others = [*(e.on for e in block.slides), *(e.on for e in block.rolls)]
+            others += [scene.cams[name].on] if name in scene.cams else []
+            pairs = [pair for other in others for pair in ((name, other), (other, name))]
+        yield from (f"R_{link_pair(*pair)}" for pair in pairs)
+
 
 LENGTH = 13.0
 """Length in mm of the arrows of forces on the mechanism, which show sense and direction alone."""

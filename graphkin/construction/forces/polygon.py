@@ -13,15 +13,13 @@ from typing import Any, ClassVar, NamedTuple
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction, Slip
-from graphkin.construction.core.naming import way_of
+from graphkin.construction.core.naming import TINY, way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import PAIR_REACTION, in_mm
 from graphkin.construction.core.relation import Relation, as_read
-from graphkin.construction.core.segments import TINY
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
-from graphkin.construction.forces.force_words import drawn_force, force_amount, newtons
-from graphkin.construction.forces.loads import LinkForce
+from graphkin.construction.forces.loads import LinkForce, drawn_force, force_amount, newtons
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line

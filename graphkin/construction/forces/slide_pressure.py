@@ -13,7 +13,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.force_words import force_amount, newtons
+from graphkin.construction.forces.loads import force_amount, newtons
 from graphkin.construction.forces.moments import (
     SEEN,
     Moments,

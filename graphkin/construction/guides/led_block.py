@@ -42,7 +42,7 @@ class LedBlock(Struct, frozen=True):
 
     def set_at(self, pen: Pen, link: str, where: int) -> None:
         """Place the link, its guided point at a coordinate of the guide; set its axis."""
-        from graphkin.construction.guides.set_by_coordinate import set_carrier, set_point
+        from graphkin.construction.guides.guides import set_carrier, set_point
 
         pair, point = self.pair, pen.bases[link].start
         sides = link, partner(pair, link)

@@ -14,10 +14,12 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
-from graphkin.construction.guides.coincident_points import image_under
-from graphkin.construction.higher_class.divided_point import line_through
+from graphkin.construction.higher_class.divided_point import (
+    LineMisclosure,
+    lacks_across,
+    line_through,
+)
 from graphkin.construction.higher_class.higher import Each
-from graphkin.construction.higher_class.misclosure import LineMisclosure, lacks_across
 from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.plan import ACCELERATION, Plan
 from graphkin.construction.rolling.contact_points import by_contact
@@ -28,6 +30,7 @@ from graphkin.construction.rolling.rolling import (
     settle_turn,
     touch_wheels,
 )
+from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.drawing.symbol_markup import bar
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.scene.link_points import under

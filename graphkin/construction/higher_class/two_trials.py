@@ -35,22 +35,29 @@ from graphkin.construction.core.vocabulary import (
     sum_of,
 )
 from graphkin.construction.group_images import GroupImages
-from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.higher_class import coupled_train
-from graphkin.construction.higher_class.divided_point import SHARE, DividedPoint, crossings
-from graphkin.construction.higher_class.higher import Each, inverse, slide_of
-from graphkin.construction.higher_class.misclosure import (
+from graphkin.construction.higher_class.divided_point import (
+    SHARE,
     BarMisclosure,
+    DividedPoint,
     DrivenMisclosure,
     GuideMisclosure,
     Misclosure,
+    crossings,
     lacks,
     lacks_across,
 )
-from graphkin.construction.higher_class.right_plan import components, in_order, settle
-from graphkin.construction.higher_class.trial_plan import TrialPlan, trial_lengths
+from graphkin.construction.higher_class.higher import Each, inverse, slide_of
+from graphkin.construction.higher_class.trial_plan import (
+    TrialPlan,
+    components,
+    in_order,
+    settle,
+    trial_lengths,
+)
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.drawing.symbol_markup import TAGS as MARKED
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, pick

@@ -1,19 +1,35 @@
-"""The mechanism to scale with the field's symbols: bars, plates, pins and pivots."""
+"""The mechanism to scale with the field's symbols: bars, plates, pins and pivots.
+
+The numbers of links: inside their plates, or next to their bars.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations, pairwise, product
+from typing import NamedTuple
 
 from graphkin.construction.cams.cam_symbols import draw_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.paper_canvas import draw_line
-from graphkin.construction.guides.pivot_grounds import ground_ways, grounds_of, is_covered
-from graphkin.construction.guides.rails import places_of, rails_of
 from graphkin.construction.guides.slide_symbols import (
+    Segment,
+    away_from,
     draw_blocks,
     draw_frame_guides,
     draw_guide_bars,
+    ground_ways,
+    grounds_of,
+    is_covered,
+    number_side,
 )
-from graphkin.construction.links.link_numbers import draw_numbers
-from graphkin.construction.links.link_shapes import corners_of, farthest, is_all_wheel
+from graphkin.construction.links.link_shapes import (
+    corners_of,
+    farthest,
+    is_all_wheel,
+    places_of,
+    rails_of,
+)
 from graphkin.construction.links.wheel_symbols import (
     draw_edges,
     draw_fixed_wheels,
@@ -21,14 +37,211 @@ from graphkin.construction.links.wheel_symbols import (
     draw_track_line,
     draw_tracks,
     draw_wheels,
+    number_beside,
+    part_of_rim,
 )
-from graphkin.drawing.field import XY, Field
-from graphkin.drawing.labels import FieldContent, Label
-from graphkin.drawing.marks import CircleMark, LineMark, Shown, polygon, reach
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.clearance import pieces_of
+from graphkin.drawing.field import XY, Field, Rect
+from graphkin.drawing.labels import GAP, NUMBER, FieldContent, Label
+from graphkin.drawing.marks import CircleMark, LineMark, Polyline, Shown, polygon, reach
+from graphkin.drawing.placement import Spot
+from graphkin.drawing.richtext import extent
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.drawing.symbols import FIXED, FREE, HINGE, PIN, TALL, across, legs, pin, pivot_ground
 from graphkin.numbers.arithmetic import smaller
-from graphkin.scene.model import Link
+from graphkin.numbers.plane import cross
+from graphkin.scene.model import FRAME, Link
+
+LONG = 14.0
+"""Length of a sliding link's own bar, in mm, from which its number is placed there."""
+EDGE = 0.8
+"""Distance of a plate's number from the plate's sides, in mm."""
+SHARES = (0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8)
+"""Positions of a number along a bar, in order of preference."""
+ENOUGH = 6.0
+"""Distance of a number's middle from other links, in mm, beyond which more does not count."""
+HALF = 4.0
+"""Half the part of a bar to which its number belongs, in mm, at most."""
+SHIFT = 8.0
+"""Cost of a place at the end of a bar instead of its middle, in mm of clearance."""
+PARTS = 8
+"""Number of parts into which the sides of a plate are divided in the search for room."""
+
+
+class Body(NamedTuple):
+    """A bar or a plate on the page: sides, the corners of a plate in order around it, its box."""
+
+    sides: list[Segment]
+    corners: list[complex]
+    box: Rect
+
+    def near(self, start: complex, end: complex, far: float) -> bool:
+        """Whether its box is within a distance of the box of a line."""
+        left, top, right, low = self.box
+        return (
+            min(start.real, end.real) - far <= right
+            and max(start.real, end.real) + far >= left
+            and min(start.imag, end.imag) - far <= low
+            and max(start.imag, end.imag) + far >= top
+        )
+
+    def apart(self, place: complex) -> float:
+        """The distance of a place from it; zero inside a plate."""
+        return 0.0 if self.holds(place) else min(away_from(place, side) for side in self.sides)
+
+    def holds(self, place: complex) -> bool:
+        """Whether a place is inside a plate."""
+        if not self.corners:
+            return False
+        turns = [cross(q - p, place - p) > 0 for p, q in self.sides]
+        return all(turns) or not any(turns)
+
+
+def draw_numbers(board: FieldContent, drawing: Drawing, field: Field) -> None:
+    """Draw the number or name of each link in its balloon."""
+    bodies = {name: body_of(drawing, field, link) for name, link in drawing.scene.links.items()}
+    for name, link in drawing.scene.bare.links.items():
+        others = [body for other, body in bodies.items() if body and other != name]
+        wished = wish(board, drawing, field, link, bodies[name], others)
+        if wished is not None:
+            board.labels.append(wished)
+    for disc in {each.sign: each for each in drawing.standing.discs}.values():
+        link = drawing.scene.link(disc.link)
+        if disc.sign != link.name or (disc.link == FRAME and len(link.wheels) > 1):
+            board.labels.append(labelled(link, part_of_rim(drawing, field, disc), sign=disc.sign))
+
+
+def wish(
+    board: FieldContent,
+    drawing: Drawing,
+    field: Field,
+    link: Link,
+    body: Body | None,
+    others: Sequence[Body],
+) -> Label | None:
+    """The preferred place of a link's number: at its plate, its bar, its block or its wheel."""
+    aside = number_side(drawing, field, link.name)
+    if body is not None and body.corners:
+        (start, end), *_ = body.sides
+        first = (start.real, start.imag), (end.real, end.imag)
+        return label_inside(link, body, others) or labelled(link, first)
+    short = body is None or abs(body.sides[0][1] - body.sides[0][0]) < LONG
+    if aside and (short or any(slide.on == FRAME for slide in link.slides)):
+        return labelled(link, aside)
+    if body is not None:
+        return label_beside(link, *body.sides[0], others)
+    beside = number_beside(drawing, field, link) or guide_bar_of(board, link)
+    return labelled(link, beside) if beside else None
+
+
+def labelled(
+    link: Link, subject: XY | tuple[XY, XY], away: XY | None = None, sign: str = ""
+) -> Label:
+    """The label of a link, with its number or the sign of one of its wheels, at a subject."""
+    said = escape(sign or link.name)
+    return Label(said, "", subject, 2.5, link.name, away=away, priority=3, ring=True)
+
+
+def body_of(drawing: Drawing, field: Field, link: Link) -> Body | None:
+    """The bar or the plate of a link on the page; None where it has neither."""
+    corners = [complex(*field(corner)) for corner in corners_of(drawing, link) or ()]
+    if corners:
+        return Body([*pairwise([*corners, corners[0]])], corners, around(corners))
+    places = places_of(drawing, link.name)
+    if len(places) < 2:
+        return None
+    first, last = (complex(*field(place)) for place in farthest(places))
+    return Body([(first, last)], [], around((first, last))) if first != last else None
+
+
+def around(places: Sequence[complex]) -> Rect:
+    """The upright box around places."""
+    xs, ys = [place.real for place in places], [place.imag for place in places]
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def label_inside(link: Link, body: Body, others: Sequence[Body]) -> Label | None:
+    """A label inside its plate, where it is farthest from the sides and from other links.
+
+    None where there is no room.
+    """
+    wide = max(NUMBER, (extent(escape(link.name), 2.5)[0] + NUMBER) / 2)
+    sides = [*body.sides, *(side for other in others for side in other.sides)]
+
+    def room(place: complex) -> float:
+        return min(away_from(place, side) for side in sides)
+
+    place = max(within(body.corners), key=room)
+    if min(away_from(place, side) for side in body.sides) < wide + EDGE:
+        return None
+    return labelled(link, (place.real - wide - GAP, place.imag), (1.0, 0.0))
+
+
+def within(corners: Sequence[complex]) -> Iterator[complex]:
+    """Places spread over a plate, all of them inside."""
+    first = corners[0]
+    for second, third in pairwise(corners[1:]):
+        for i, j in combinations(range(1, PARTS), 2):
+            yield (i * first + (j - i) * second + (PARTS - j) * third) / PARTS
+
+
+def label_beside(link: Link, start: complex, end: complex, others: Sequence[Body]) -> Label:
+    """A label next to its bar, on the side and at the place farthest from other links."""
+    length = abs(end - start)
+    way = (end - start) / length
+    off = (NUMBER + GAP) * 1j * way
+    beside = [other for other in others if other.near(start, end, ENOUGH + abs(off))]
+    found: list[tuple[float, float, int]] = []
+    for share, side in product(SHARES, (1, -1)):
+        place = start + share * (end - start) + side * off
+        room = min((other.apart(place) for other in beside), default=ENOUGH)
+        found.append((min(room, ENOUGH) - SHIFT * (share - 0.5) ** 2, share, side))
+        if room >= ENOUGH:
+            break
+    _, share, side = max(found, key=lambda each: each[0])
+    middle, half = start + share * (end - start), min(HALF, 0.2 * length) * way
+    low, high, away = middle - half, middle + half, side * off / abs(off)
+    return labelled(link, ((low.real, low.imag), (high.real, high.imag)), (away.real, away.imag))
+
+
+def guide_bar_of(board: FieldContent, link: Link) -> tuple[XY, XY] | None:
+    """The drawn guide of a link that has neither a bar, a block nor a wheel."""
+    for mark in board.marks:
+        if isinstance(mark, LineMark) and mark.cls == "guide-bar" and mark.name == link.name:
+            return (mark.x1, mark.y1), (mark.x2, mark.y2)
+    return None
+
+
+def settle_in_plates(board: FieldContent) -> None:
+    """Place the numbers of plates inside them, clear of all marks.
+
+    They are placed before other labels. A number without such a place is left to be placed with the
+    others.
+    """
+    from shapely import MultiLineString, Point, Polygon, box, buffer, get_parts, union_all
+    from shapely.ops import nearest_points
+
+    plates = {m.name: m for m in board.marks if isinstance(m, Polyline) and m.cls == "plate"}
+    lines = [((a, b), (c, d)) for a, b, c, d in pieces_of(board.marks).tolist()]
+    waiting = list[Label]()
+    for label in board.labels:
+        x, y = label.subject
+        if not label.ring or label.name not in plates or isinstance(x, tuple):
+            waiting.append(label)
+            continue
+        wide = label.size()[0] / 2
+        body = Polygon(plates[label.name].points).buffer(-wide - EDGE)
+        near = MultiLineString(lines).intersection(body.buffer(wide + EDGE))
+        taken = [*get_parts(near), *(box(*rect) for rect in board.taken)]
+        free = body - union_all(buffer(taken, wide + EDGE))  # one union: 20 times as fast
+        if free.is_empty:
+            waiting.append(label)
+            continue
+        assert isinstance(y, float)
+        place = nearest_points(free, Point(x + wide + GAP, y))[0]
+        board.marks += label.marks(Spot(place.x, place.y, None, True))
+        board.taken.append(place.buffer(wide).bounds)  # keeps leaders off its ring
+    board.labels = waiting
 
 
 def draw_frame(board: FieldContent, drawing: Drawing, field: Field) -> None:

@@ -10,10 +10,9 @@ from typing import Any, NamedTuple
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.link_poses import APART, Disc, Touch
 from graphkin.construction.core.paper_canvas import draw_line
-from graphkin.construction.guides.rails import ALIKE, REACH, places_of, seat
 from graphkin.construction.guides.slide_symbols import within
 from graphkin.construction.links.gear_symbols import BASE, ROOT, gear, polar, rack, teeth_beside
-from graphkin.construction.links.link_shapes import is_all_wheel
+from graphkin.construction.links.link_shapes import ALIKE, REACH, is_all_wheel, places_of, seat
 from graphkin.drawing.field import MARGIN, XY, Field
 from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark

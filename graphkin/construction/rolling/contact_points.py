@@ -18,8 +18,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.plan_vector import plan_vector
-from graphkin.construction.core.program import Effect, Plane, Step
+from graphkin.construction.core.program import Effect, Plane, Step, plan_vector
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action

@@ -33,8 +33,8 @@ from graphkin.construction.core.program import SPEEDS, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action, meet
-from graphkin.construction.guides.coincident_points import image_under
 from graphkin.construction.plan import VELOCITY
+from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.drawing.style import CHAIN_LINES
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -18,8 +18,14 @@ from graphkin.construction.core.vocabulary import (
     product,
     sum_of,
 )
-from graphkin.construction.guides.guides import axis, guide_line, local_line, path_of
-from graphkin.construction.guides.set_by_coordinate import set_at, set_point
+from graphkin.construction.guides.guides import (
+    axis,
+    guide_line,
+    local_line,
+    path_of,
+    set_at,
+    set_point,
+)
 from graphkin.construction.links.link_shapes import local_place
 from graphkin.construction.links.plate_points import place_point, plate_points
 from graphkin.construction.links.rolled_turn import (

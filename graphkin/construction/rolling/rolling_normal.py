@@ -14,13 +14,11 @@ from graphkin.construction.core.component import (
 )
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction, Run, Wording
-from graphkin.construction.core.naming import drawn_between, rate_symbol
+from graphkin.construction.core.naming import drawn_between, laid_off_words, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
-from graphkin.construction.core.plan_vector import PlanVector
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Part, Plane, PlanVector
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
-from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -8,16 +8,14 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.construction.acceleration.tangential_direction import known_and_free
-from graphkin.construction.core.arrows import component_arrow, relative_arrow
 from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import rate_symbol
-from graphkin.construction.core.pen import Pen, letter
+from graphkin.construction.core.pen import Pen, component_arrow, letter, relative_arrow
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
-from graphkin.construction.guides.coincident_points import found_by_turning, image_under
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
 from graphkin.construction.rolling import rolling
@@ -26,7 +24,9 @@ from graphkin.construction.rolling.rolling import radius_of, seen_from
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
+    found_by_turning,
     image_of_link,
+    image_under,
     translated_image,
 )
 from graphkin.construction.velocity.lines_through import parallel_through

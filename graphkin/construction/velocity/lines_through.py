@@ -13,6 +13,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import LaidOff, component_ending_at, end_before
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import FindsImage, Run, construction
+from graphkin.construction.core.naming import letter_at
 from graphkin.construction.core.palette import (
     PARALLEL,
     PERPENDICULAR,
@@ -25,7 +26,6 @@ from graphkin.construction.core.palette import (
 from graphkin.construction.core.pen import Pen, against, image, letter
 from graphkin.construction.core.program import Plane, Step
 from graphkin.construction.core.relation import Relation
-from graphkin.construction.core.segments import letter_at
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
 from graphkin.drawing.symbol_markup import escape, symbol

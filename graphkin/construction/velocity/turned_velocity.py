@@ -19,6 +19,7 @@ from graphkin.construction.core.naming import (
     driver_of_rate,
     has_no_length,
     is_driven,
+    laid_off_words,
     rate_symbol,
     turning_with,
     vector_of,
@@ -27,7 +28,6 @@ from graphkin.construction.core.palette import LAYS_OFF, Move
 from graphkin.construction.core.pen import Pen, against, letter
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
-from graphkin.construction.core.segments import laid_off_words
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol

@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import driver_index, rate_symbol, sense, turning_with
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.plan_vector import plan_vector
+from graphkin.construction.core.program import plan_vector
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import FINE, Relation, figure, length_of, put_in, within
 from graphkin.construction.core.vocabulary import action, difference, sum_of

@@ -35,7 +35,7 @@ from graphkin.scene.model import Scene
 from graphkin.scene.quantity import SI
 
 if TYPE_CHECKING:
-    from graphkin.motion.forces_along import ForcesAlong
+    from graphkin.motion.cycle import ForcesAlong
 
 Reals = np.ndarray[tuple[int], np.dtype[np.float64]]
 

@@ -13,9 +13,8 @@ from msgspec import Struct
 
 from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.graded import Answer, Result
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.lab.lab_model import exact_text
+from graphkin.classroom.roster.students import Student, Taker
 from tests.classroom.grading import hand
 from tests.classroom.grading.students import lab_of
 

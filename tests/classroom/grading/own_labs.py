@@ -16,11 +16,9 @@ import numpy as np
 
 from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.graded import Result, Status
-from graphkin.classroom.lab.lab_model import Lab
+from graphkin.classroom.lab.lab_model import Lab, exact_text
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.classroom.variants.assign import assigned
 from tests.classroom.grading import classes, hand
 from tests.classroom.grading.classes import HONEST, Kind, Row, drawn_row, named

@@ -20,8 +20,7 @@ from graphkin.classroom.grading.standard import Standard, joint_drawings, standa
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from tests.chosen import EVERY
 
 LABS = ("pump", "slotted-lever", "offset-slider-crank", "pump-collinear")[: 4 if EVERY else 3]

@@ -13,7 +13,7 @@ from graphkin.classroom.grading.class_report import stranger_lines
 from graphkin.classroom.grading.feedback import unread
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 from graphkin.text import words
 from graphkin.text.errors import RosterError
 

@@ -20,7 +20,7 @@ from graphkin.classroom.grading.grading_files import (
     read_marks,
     report_files,
 )
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 from graphkin.text import words
 from graphkin.text.errors import RosterError
 from tests.chosen import SPOKEN

@@ -20,7 +20,7 @@ from graphkin.classroom.grading.gradebook import (
     with_marks,
 )
 from graphkin.classroom.roster.spreadsheets import SEPARATORS
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 
 MARKS = {"0001": Fraction(17, 2), "0002": Fraction(12), "X9": Fraction(1)}
 MOODLE = (

@@ -28,7 +28,7 @@ from graphkin.classroom.grading.graded import Result as Marks
 from graphkin.classroom.grading.grading_files import marks_table
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.roster.spreadsheets import RowProblems, sheet_in
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 from graphkin.cli.main import app
 from graphkin.text.errors import PLAIN_TRACEBACK, RosterError
 from tests.classroom.grading.students import book_of, drawn, marker_of, taker

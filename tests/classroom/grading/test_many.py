@@ -12,8 +12,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.class_standards import alike, by_driving, standards
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import items
-from graphkin.classroom.lab.lab_model import Lab, Rubric
-from graphkin.classroom.lab.rules import exact_text
+from graphkin.classroom.lab.lab_model import Lab, Rubric, exact_text
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_marking import unfollowed
-from graphkin.classroom.grading.form_relations import Own, OwnLengths
+from graphkin.classroom.grading.follow_through import Own, OwnLengths
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard

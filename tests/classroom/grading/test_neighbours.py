@@ -19,9 +19,8 @@ from graphkin.classroom.grading.neighbours import (
     worst_drawn,
 )
 from graphkin.classroom.lab.fairness_words import apart_lines
-from graphkin.classroom.lab.lab_model import LabRule, Range
-from graphkin.classroom.lab.rules import settings
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.lab.lab_model import LabRule, Range, settings
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants import assign, class_files
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import class_lines

@@ -38,9 +38,8 @@ from graphkin.classroom.grading.likelihood import (
     scattered,
 )
 from graphkin.classroom.grading.marking import is_one_drawing
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.lab.lab_model import exact_text
+from graphkin.classroom.roster.students import Student, Taker
 from tests.chosen import EVERY
 from tests.classroom.grading import hand
 from tests.classroom.grading.classes import LABS, Kind, book_of, row

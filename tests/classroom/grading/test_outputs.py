@@ -31,8 +31,7 @@ from graphkin.classroom.grading.grading_files import (
     report_files,
 )
 from graphkin.classroom.grading.kept_marks import KEPT_MARKS, kept_marks, read_kept_marks
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.cli.main import app
 from graphkin.text import words
 from tests.chosen import SPOKEN

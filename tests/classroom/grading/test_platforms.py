@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from graphkin.classroom.grading.answers import read_answers, sender, submissions
 from graphkin.classroom.grading.grading_files import read_marks
-from graphkin.classroom.roster.student_signs import signs
+from graphkin.classroom.roster.students import signs
 from graphkin.cli.main import app
 from graphkin.text.errors import RosterError
 from tests.classroom.grading.students import book_of, marker_of

@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from graphkin import load
-from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, Rubric
-from graphkin.classroom.lab.rules import Settings
+from graphkin.classroom.lab.lab_model import Fair, Lab, LabRule, Range, Rubric, Settings
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.solution import Verdict
 from graphkin.documents.sheet_documents import drawings_of

@@ -21,7 +21,7 @@ from graphkin.classroom.lab.fair_ranges import (
 )
 from graphkin.classroom.lab.lab_model import Range, ValueList
 from graphkin.classroom.lab.lab_trial import tried
-from graphkin.classroom.lab.proposed_ranges import (
+from graphkin.classroom.lab.new_lab import (
     as_toml,
     candidates,
     formula_faults,
@@ -147,7 +147,7 @@ def test_ranges_keep_to_the_limit_of_a_pencil(lab, tmp_path, monkeypatch):
     assert before.spoiled_share > 1 - before.fairness.fair.mean() + 0.1
     # where no class would be left the rest is drawn again
     monkeypatch.setattr(module, "LEFT", 10**6)
-    monkeypatch.setattr("graphkin.classroom.lab.proposed_ranges.CLASS", 12)
+    monkeypatch.setattr("graphkin.classroom.lab.new_lab.CLASS", 12)
     found = fair_ranges(lab)
     assert 0 < found.exact_inside < 1
     assert found.count > 10_000
@@ -265,7 +265,7 @@ def test_a_length_that_all_students_share_as_a_parameter_is_mended_as_well(tmp_p
 
 def test_the_command_tells_proposes_and_draws(lab, tmp_path, monkeypatch):
     monkeypatch.setattr(module, "DRAWS", 60)
-    monkeypatch.setattr("graphkin.classroom.lab.proposed_ranges.CLASS", 12)
+    monkeypatch.setattr("graphkin.classroom.lab.new_lab.CLASS", 12)
     out = tmp_path / "out"
     result = CliRunner().invoke(app, ["ranges", str(tmp_path), "-o", str(out)])
     assert result.exit_code == 0, result.output

@@ -6,8 +6,8 @@ import re
 
 import pytest
 
-from graphkin.classroom.lab.cause_names import NAMES
 from graphkin.classroom.lab.items import all_fields
+from graphkin.classroom.lab.lab_model import NAMES
 from graphkin.classroom.lab.new_lab import causes, fields_of, new_lab
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.mechanism import load

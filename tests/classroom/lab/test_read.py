@@ -8,9 +8,8 @@ from fractions import Fraction
 import pytest
 from click.testing import CliRunner
 
-from graphkin.classroom.lab.cause_names import SHARES
 from graphkin.classroom.lab.items import all_fields, asked_of, items
-from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, Rubric
+from graphkin.classroom.lab.lab_model import SHARES, Fair, LabRule, Range, Rubric
 from graphkin.classroom.lab.read_lab import find, read_lab, with_rules
 from graphkin.cli.main import app
 from graphkin.mechanism import load

@@ -11,10 +11,17 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.classroom.lab import rules
-from graphkin.classroom.lab.lab_model import Lab, LabRule, Range
-from graphkin.classroom.lab.rules import drawn, exact_text, picked, settings
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.lab import lab_model
+from graphkin.classroom.lab.lab_model import (
+    Lab,
+    LabRule,
+    Range,
+    drawn,
+    exact_text,
+    picked,
+    settings,
+)
+from graphkin.classroom.roster.students import Student
 from graphkin.scene.expression import UnreadableError
 from graphkin.scene.quantity import expression
 from graphkin.text.errors import SceneError
@@ -50,7 +57,7 @@ def test_the_hash_is_the_documented_one():
 
 
 def test_the_command_in_the_documentation_gives_the_same_hash():
-    line = re.search(r"printf '%s' '(.+)' \| sha256sum", rules.__doc__)
+    line = re.search(r"printf '%s' '(.+)' \| sha256sum", lab_model.__doc__)
     assert line
     shell = f"printf '%s' '{line[1]}' | sha256sum"
     result = subprocess.run(["sh", "-c", shell], capture_output=True, text=True, check=True)

@@ -10,11 +10,11 @@ import pytest
 
 from graphkin.classroom.grading.neighbours import standards_of, worst_drawn
 from graphkin.classroom.lab.fairness_words import scale_table, trial_lines
+from graphkin.classroom.lab.lab_model import settings
 from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import new_lab
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import settings
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.text import words
 from graphkin.text.errors import PageError, SceneError

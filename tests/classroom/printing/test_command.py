@@ -8,8 +8,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.printing.journal import JOURNAL
-from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
+from graphkin.classroom.printing.print_run import JOURNAL, Means, Outcome, PrintRequest, print_class
 from graphkin.cli.main import app
 from graphkin.reading.read_run import read_order
 from graphkin.reading.read_sheet import Grid

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.classroom.printing.journal import JOURNAL, Entry, Journal, key_of
+from graphkin.classroom.printing.print_run import JOURNAL, Entry, Journal, key_of
 
 
 def entry(folder: Path, part: str, key: str, **files: bytes) -> Entry:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphkin.classroom.printing.file_names import inside, stems
+from graphkin.classroom.printing.edition import inside, stems
 from graphkin.text.errors import PageError
 
 HOSTILE = [

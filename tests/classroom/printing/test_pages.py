@@ -12,15 +12,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphkin.classroom.grading.standard import standard
-from graphkin.classroom.lab.items import items
-from graphkin.classroom.printing.answer_form import (
+from graphkin.classroom.form_page import (
     MOST_ROW,
     ROW,
     form,
     row_height,
     rows_within,
 )
+from graphkin.classroom.grading.standard import standard
+from graphkin.classroom.lab.items import items
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.personal import (
     boxes,
@@ -33,8 +33,7 @@ from graphkin.classroom.printing.personal import (
 )
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.documents.view_names import VIEWS
 from graphkin.drawing.field import A3, A4_PAGE, LETTER
 from graphkin.drawing.marks import Page, Text

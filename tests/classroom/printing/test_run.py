@@ -15,12 +15,11 @@ import pytest
 from graphkin.classroom.printing import print_run as running
 from graphkin.classroom.printing import print_work
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.printing.journal import JOURNAL
-from graphkin.classroom.printing.print_run import Means, Outcome, PrintRequest, print_class
+from graphkin.classroom.printing.print_run import JOURNAL, Means, Outcome, PrintRequest, print_class
 from graphkin.classroom.printing.print_work import make as make_sheets
 from graphkin.text.errors import PLAIN_TRACEBACK, PageError
 from graphkin.writers import commit
-from graphkin.writers.lock import LOCK, locked
+from graphkin.writers.commit import LOCK, locked
 from tests.chosen import EVERY
 from tests.classroom.printing.conftest import tree, write_class
 

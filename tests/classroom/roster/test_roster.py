@@ -16,8 +16,6 @@ from hypothesis import strategies as some
 
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster import spreadsheets
-from graphkin.classroom.roster.language_names import NAMES as LANGUAGE_NAMES
-from graphkin.classroom.roster.language_names import language_in
 from graphkin.classroom.roster.read_roster import NAMES, read_roster
 from graphkin.classroom.roster.spreadsheets import (
     MOST_CELLS,
@@ -25,7 +23,8 @@ from graphkin.classroom.roster.spreadsheets import (
     folded,
     xlsx_rows,
 )
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.students import NAMES as LANGUAGE_NAMES
+from graphkin.classroom.roster.students import Student, language_in
 from graphkin.classroom.variants.assign import check_of
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import InTable, RosterError

@@ -7,9 +7,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList
-from graphkin.classroom.lab.rules import exact_text, settings
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.lab.lab_model import Lab, LabRule, Range, ValueList, exact_text, settings
+from graphkin.classroom.roster.students import Student
 from graphkin.scene.quantity import expression
 
 

@@ -6,9 +6,9 @@ import pytest
 
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.items import items
+from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import exact_text
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.documents.positions import positions_of
 from graphkin.documents.sheet_documents import hand_out

@@ -15,11 +15,11 @@ from graphkin.classroom.grading.class_report import summary
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.lab.fair_ranges import fair_ranges
-from graphkin.classroom.lab.proposed_ranges import proposed_ranges
+from graphkin.classroom.lab.lab_model import picked, settings, sheets
+from graphkin.classroom.lab.new_lab import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import picked, settings, sheets
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.roster.student import Student
+from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
 from graphkin.documents.positions import positions_of

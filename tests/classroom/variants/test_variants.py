@@ -15,13 +15,11 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, ValueList
+from graphkin.classroom.lab.lab_model import Fair, LabRule, Range, ValueList, exact_text, settings
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.lab.rules import exact_text, settings
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.roster.read_roster import read_roster
-from graphkin.classroom.roster.student import Student
-from graphkin.classroom.roster.taker import Taker
+from graphkin.classroom.roster.students import Student, Taker
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import class_lines, write_class
 from graphkin.scene.scene_files import UNFINISHED
