@@ -220,7 +220,7 @@ def of_unit(keys: Keys, places: Sequence[int], power: int) -> Problem:
     hint = message("correct the columns, or mark them with --as-it-is")
     if unit:
         hint = message(
-            'write the unit into the heads, such as "{head}", or mark with --as-it-is',
+            'write the unit in the heads, such as "{head}", or mark with --as-it-is',
             head=f"{first.field} [{unit}]",
         )
     columns = ", ".join(f'"{item.field}"' for item in items)
