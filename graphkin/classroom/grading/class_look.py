@@ -185,7 +185,7 @@ def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
 
 
 def in_other_units(keys: Keys, answers: Any, sizes: Any) -> None:
-    """Raise RosterError where all columns with one unit of length are off by one power of ten.
+    """Raise RosterError where all columns of one unit are off by the same power of ten.
 
     These are the lengths in a plan, or speeds and accelerations together.
     """
