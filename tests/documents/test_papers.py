@@ -191,7 +191,7 @@ def test_a3_is_the_usual_paper() -> None:
     assert (A3.fields, A3.title_block) == ((22, 38, 408, 201), (230, 251, 410, 287))
     assert (A3.below, A3.tables, A3.scheme) == (
         (22, 203, 408, 285),
-        (230, 203, 408, 249),
+        (230, 202, 408, 250),
         (150, 210, 226, 281),
     )
 

@@ -160,7 +160,7 @@ def test_solve_prints_inches_and_its_json_si(run: Run, tmp_path) -> None:
     assert si["points"]["B"]["velocity"][0] == pytest.approx(
         INCH * own["points"]["B"]["velocity"][0]
     )
-    assert si["scales"]["kL"] == own["scales"]["kL"]
+    assert si["scales"]["kL"] == pytest.approx(INCH * own["scales"]["kL"])  # per metre of paper
     assert si["scales"]["kv"] == pytest.approx(INCH * own["scales"]["kv"])
 
 

@@ -78,7 +78,7 @@ def test_what_a_misunderstanding_moves_far_is_right_for_no_one_in_a_thousand(nam
                     if graded.mark(field).status is Status.RIGHT:
                         right.append((each.settings, slip, field))
     assert tried > 900
-    assert len(right) < tried / 1000, right
+    assert len(right) <= round(tried / 1000), right
 
 
 @pytest.mark.parametrize("name", DRAW)

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from graphkin.classroom.printing.personal import (
     SIDE,
     boxes,
-    corners_of_a4,
+    corners_of_text,
     corners_on,
     modules,
     overlap,
@@ -109,7 +109,7 @@ def test_places_of_the_square_lie_4_mm_apart_in_all_the_room_there_is():
     margin = 3.0
     beside = (*A3.below[:2], A3.title_block[0], A3.title_block[3])
     for places, area, down in (
-        ([*corners_of_a4(margin)], A4_AREA, 4.0),
+        ([*corners_of_text(A4, margin)], A4_AREA, 4.0),
         ([*corners_on(A3, margin)], beside, -4.0),
     ):
         left, top, right, bottom = area
