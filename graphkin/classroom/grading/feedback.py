@@ -512,7 +512,7 @@ def feedback_pages(
                 ),
                 *marks,
             ),
-            f"{title} – {graded.taker.student.name or graded.taker.student.id}",
+            f"{title} – {graded.taker.student.title}",
             words.language,
         )
         for number, marks in enumerate(bodies, 1)

@@ -40,6 +40,15 @@ class Student(Struct, frozen=True):
         """The student's name and id, as notes name a student."""
         return f"{self.name} ({self.id})" if self.name else self.id
 
+    @property
+    def title(self) -> str:
+        """The name by which pages address the student, after the id of one of several sheets."""
+        return self.with_part(self.name or self.id)
+
+    def with_part(self, name: str) -> str:
+        """A name after the id of one of several sheets: "101-2 Anna Weber"."""
+        return f"{self.id} {name}" if self.part and name != self.id else name
+
 
 HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
 """The names of a column of languages."""

@@ -8,10 +8,12 @@ import zipfile
 from fractions import Fraction
 
 import pytest
+from msgspec.structs import replace
 
 from graphkin.classroom.grading.answers import packed_feedback
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_report import summary
+from graphkin.classroom.grading.feedback import feedback_html
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.lab.fair_ranges import fair_ranges
@@ -19,6 +21,8 @@ from graphkin.classroom.lab.lab_model import picked, settings, sheets
 from graphkin.classroom.lab.new_lab import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.personal import owner
+from graphkin.classroom.printing.print_run import bookmark
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
 from graphkin.classroom.variants.class_files import write_class
@@ -244,3 +248,16 @@ def test_sheets_too_near_to_another_students_are_drawn_again_together(tmp_path):
         assert len({each.attempt for each in own}) == 1
         assert len({each.settings["r"] for each in own}) == 1
         assert len({each.settings["p"] for each in own}) == 3
+
+
+def test_every_page_of_a_sheet_names_it_by_its_id(drawn, tmp_path):
+    edition = edition_of(drawn, tmp_path)
+    taker = edition.takers[1]
+    assert owner(taker).name == "0001-2 Name 1"
+    assert bookmark(taker) == "0001-2 Name 1"
+    found = graded_class(edition.book, edition.takers, {"0001-2": right(edition, taker)})
+    back = feedback_html(found.graded[1], "lab", drawn.rubric, words("en"))
+    assert "0001-2 Name 1" in back.partition("</title>")[0]
+    assert "0001-2 Name 1" in back.partition("</title>")[2]
+    unnamed = replace(taker, student=replace(taker.student, name=""))
+    assert owner(unnamed).name == "0001-2"
