@@ -50,6 +50,14 @@ class Student(Struct, frozen=True):
         return f"{self.id} {name}" if self.part and name != self.id else name
 
 
+Counted = Literal["students", "sheets"]
+
+
+def counted(students: Iterable[Student]) -> Counted:
+    """The name of what entries count: sheets where a student has several."""
+    return "sheets" if any(each.part for each in students) else "students"
+
+
 HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
 """The names of a column of languages."""
 NAMES = {

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answers import packed_feedback
 from graphkin.classroom.grading.class_marking import graded_class
-from graphkin.classroom.grading.class_report import summary
+from graphkin.classroom.grading.class_report import class_report, counted_in, summary
 from graphkin.classroom.grading.feedback import feedback_html
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
@@ -25,7 +25,7 @@ from graphkin.classroom.printing.personal import owner
 from graphkin.classroom.printing.print_run import bookmark
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
-from graphkin.classroom.variants.class_files import write_class
+from graphkin.classroom.variants.class_files import class_lines, write_class
 from graphkin.documents.positions import positions_of
 from graphkin.mechanism import load
 from graphkin.text import words
@@ -261,3 +261,12 @@ def test_every_page_of_a_sheet_names_it_by_its_id(drawn, tmp_path):
     assert "0001-2 Name 1" in back.partition("</title>")[2]
     unnamed = replace(taker, student=replace(taker.student, name=""))
     assert owner(unnamed).name == "0001-2"
+
+
+def test_what_is_counted_are_sheets(drawn, tmp_path):
+    edition = edition_of(drawn, tmp_path)
+    assert "fair       30 of 30 sheets" in list(class_lines(drawn, assigned(drawn, STUDENTS)))
+    reversed_senses = {t.student.id: right(edition, t) for t in edition.takers}
+    found = graded_class(edition.book, edition.takers, reversed_senses)
+    assert counted_in(found.graded) == "sheets"
+    assert 'class="n">sheets</th>' in class_report(found, "lab", (), words("en"))
