@@ -259,7 +259,7 @@ SHOWN = 5
     type=click.IntRange(1, 1000),
     default=30,
     show_default=True,
-    help="Largest number of variants.",
+    help="Largest number of variants; each of a student's several positions is a question.",
 )
 @formats_option(
     "moodle,canvas,qti3",

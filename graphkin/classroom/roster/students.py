@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal
@@ -162,6 +163,10 @@ class Signs(Struct, frozen=True):
         """The id of the student with this id, code or address; None if there is no such student."""
         known = self.exact.get(sign) or self.emails.get(sign.casefold())
         return known or (self.bare.get(sign.lstrip("0")) if sign.isdecimal() else None)
+
+    def sheets(self, owner: str) -> tuple[str, ...]:
+        """The ids of the sheets of a student who has several."""
+        return tuple(each for each in self.ids if re.fullmatch(f"{re.escape(owner)}-[0-9]+", each))
 
     def named(self, name: str) -> tuple[str, ...]:
         """The ids of the students with this name, whichever part of the name comes first."""

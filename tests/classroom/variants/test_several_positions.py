@@ -10,7 +10,7 @@ from fractions import Fraction
 import pytest
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.answers import packed_feedback
+from graphkin.classroom.grading.answers import packed_feedback, read_answers
 from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.class_report import class_report, counted_in, summary
 from graphkin.classroom.grading.feedback import feedback_html
@@ -270,3 +270,13 @@ def test_what_is_counted_are_sheets(drawn, tmp_path):
     found = graded_class(edition.book, edition.takers, reversed_senses)
     assert counted_in(found.graded) == "sheets"
     assert 'class="n">sheets</th>' in class_report(found, "lab", (), words("en"))
+
+
+def test_a_row_of_a_student_is_told_its_sheets(drawn, tmp_path):
+    signs = edition_of(drawn, tmp_path).signs
+    assert signs.sheets("0002") == ("0002-1", "0002-2", "0002-3")
+    assert signs.sheets("000") == ()
+    table = tmp_path / "answers.csv"
+    table.write_text("id,v_B,a_B\n0002,1,2\n", encoding="utf-8")
+    with pytest.raises(RosterError, match="write a row for each sheet: 0002-1, 0002-2, 0002-3"):
+        read_answers(table, edition_of(drawn, tmp_path).book.form, signs)
