@@ -393,11 +393,14 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
         return []
     said = (cause_sentence(cause, words) for cause in causes)
     sentences = dict(zip(("cause", "other"), said, strict=False))
-    key = "feedback.one_mistake" if len(causes) == 1 else "feedback.two_mistakes"
-    if graded.cost:
-        parts = [words(key, cost=points_words(graded.cost, words), **sentences)]
-    else:
-        parts = [words(f"{key}_free", **sentences)]
+    costing, free = (
+        ("feedback.one_mistake", "feedback.one_mistake_free")
+        if len(causes) == 1
+        else ("feedback.two_mistakes", "feedback.two_mistakes_free")
+    )
+    cost = points_words(graded.cost, words)
+    opening = words(costing, cost=cost, **sentences) if graded.cost else words(free, **sentences)
+    parts: list[str] = [opening]
     caused = (m for m in graded.marks if m.status is Status.CAUSE and m.item.what == "sense")
     if lost := sum((mark.points for mark in caused if not mark.earned), Fraction()):
         parts.append(words("feedback.senses_lost", points=points_words(lost, words)))
