@@ -152,8 +152,8 @@ def sheet(
 @click.option(
     "--advantage",
     is_flag=True,
-    help="Also tell the extremes of every follower's speed over the driver's: 1 over its mechanical"
-    " advantage without friction.",
+    help="Also report the extremes of every follower's speed over the driver's: 1 over its"
+    " mechanical advantage without friction.",
 )
 @language_option
 @formats_option(

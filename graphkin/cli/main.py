@@ -129,7 +129,7 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     A lab, which has a lab.toml in the folder of its scene, is then tried on a thousand variants:
     how many are fair, which limits the others exceed, and how much the difficulty differs.
 
-    A house.toml is read, and the conventions that it states are printed.
+    For a school's conventions, such as house.toml, it prints what they state.
 
     \b
     Examples:
@@ -139,11 +139,10 @@ def check(name: str, settings: tuple[str, ...]) -> None:
     from graphkin.cli.class_commands import check_lab
     from graphkin.cli.report.check_report import Checking
     from graphkin.scene import scene_files
-    from graphkin.scene.house import HOUSE, read_house
-    from graphkin.text import paths
+    from graphkin.scene.house import is_house, read_house
     from graphkin.text.errors import StructureError
 
-    if paths.name_of(name) == HOUSE and paths.is_file(name):
+    if is_house(name):
         from graphkin.cli.report.check_report import house_lines
 
         tell(house_lines(read_house(name)))

@@ -238,7 +238,7 @@ def say_aside(text: str) -> None:
 
 @contextmanager
 def working() -> Iterator[Say]:
-    """A function that shows on one line of a terminal how far a work is; silent elsewhere."""
+    """A function that shows progress on one line of a terminal; silent elsewhere."""
 
     def shown(words: str) -> None:
         click.echo(f"\r\x1b[K{words}{' …' if words else ''}", nl=False, err=True)

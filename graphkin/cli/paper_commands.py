@@ -1,4 +1,4 @@
-"""The commands from paper and back: ``print`` and ``read``."""
+"""The commands from paper and back: ``print``, ``read`` and ``desk``."""
 
 from __future__ import annotations
 

@@ -162,7 +162,7 @@ def slid_words(scene: Scene, found: Range, number: int) -> Message:
 
 
 def closing(scene: Scene, number: int = 1) -> ClosingRanges:
-    """The positions of one driver at which the whole mechanism can be drawn, sought once a scene.
+    """The positions of one driver at which the whole mechanism can be drawn, found once a scene.
 
     The closures are those of the scene, and the other drivers are at rest. The search covers one
     turn, or the reach of all lengths together; [(0, 360)] is a whole turn. Where groups are closed

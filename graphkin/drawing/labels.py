@@ -451,7 +451,7 @@ class FieldContent(Struct):
             yield FootNote(f"{self.unnamed} {names}")
 
     def lost(self, spots: Sequence[Spot]) -> list[int]:
-        """The spare labels without a place, or that only a leader across a strong line tells."""
+        """The spare labels that have no place, or only one whose leader crosses a strong line."""
         if not any(label.spare for label in self.labels):
             return []
         led = with_leaders(self.labels, spots, self.marks)

@@ -25,12 +25,12 @@ class Mass(Struct, frozen=True):
 
 
 class ByDriver(Struct, frozen=True):
-    """A number by a table of the coordinate of a driver (its number in the scene).
+    """A number from a table over the coordinate of a driver (its number in the scene).
 
-    Between two points of the table it lies on a straight line. ``places`` are the coordinates in
-    the driver's unit, in increasing order and without parameters, ``numbers`` the values there. A
-    table of angles begins again after ``period``; before and after another table, its first and
-    last number hold.
+    Between two points of the table, the number is interpolated linearly. ``places`` are the
+    coordinates in the driver's unit, in increasing order and without parameters; ``numbers`` are
+    the values there. A table of angles repeats after ``period``. Any other table keeps its first
+    number before its first place, and its last number after its last one.
     """
 
     driver: int
@@ -40,7 +40,7 @@ class ByDriver(Struct, frozen=True):
 
     @property
     def begins_again(self) -> bool:
-        """Whether the first number closes the table, which ends before its period."""
+        """Whether the table ends before its period, so that its first number closes it."""
         if self.period is None:
             return False
         last, first, period = (

@@ -389,6 +389,21 @@ def read_house(path: paths.Named) -> House:
         raise HouseError(replace(each, file=str(path)) for each in error.problems) from None
 
 
+def is_house(path: paths.Named) -> bool:
+    """Whether a file has the conventions of a school: it is called house.toml, or has its tables.
+
+    ``graphkin new house`` writes house.toml, but a lecturer may keep one file for each school.
+    """
+    if not paths.is_file(path) or paths.name_of(path) == HOUSE:
+        return paths.is_file(path)
+    try:
+        tables = tables_of(decoded(whole_file(path, LARGEST)), Findings())
+    except (OSError, ValueError, SceneError):
+        return False
+    named = {*tables} - {"graphkin"}
+    return bool(named) and named <= {*HEADINGS}
+
+
 def house_beside(path: paths.Named) -> House:
     """The conventions in the folder of a scene's file; plain ones without a house.toml there."""
     file = paths.within(paths.folder_of(path), HOUSE)

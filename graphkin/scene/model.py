@@ -702,7 +702,7 @@ class Scene(Struct, frozen=True, dict=True):
 
     @property
     def unseen(self) -> frozenset[str]:
-        """The keepers of wheels that are not mentioned to the reader.
+        """The keepers of wheels that reports do not mention.
 
         A keeper that a driver moves is mentioned, and one that keeps two wheels at their distance,
         as the arm between sun and ring does.

@@ -165,7 +165,7 @@ def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
             given = on if isinstance(on, list) and len(on) == 2 else []
             owners = [link_name(table.at("links"), e, findings) or "" for e in given]
             if len(owners) != 2 or any(known_link_or_frame(scene, e) is None for e in owners):
-                expected = message("the links of both ends, such as [2, 0]")
+                expected = message("the links that hold the two ends, such as [2, 0]")
                 findings.add(table.at("links"), shown(on), expected)
                 continue
         for end, owner in zip(ends, owners, strict=True):
@@ -271,7 +271,7 @@ def size_of(
     )
     known = [each.si({}) for each in places if not each.uses()]
     if len(known) < len(places) or any(a >= b for a, b in pairwise(known)):
-        expected = message("numbers without parameters, each above the one before")
+        expected = message("numbers without parameters, each greater than the one before")
         findings.add(place, shown([each[0] for each in raw]), expected)
         return nothing
     if not turns:

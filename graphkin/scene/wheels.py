@@ -251,7 +251,7 @@ def with_radii(
         else:
             found.append(wheel)
             place = "frame" if link.name == FRAME else f"links.{link.name}"
-            hint = message("the way of a rack depends on the module of its pinion")
+            hint = message("the travel of a rack depends on the module of its pinion")
             measures.findings.add(
                 numbered(f"{place}.wheel", index, len(link.wheels)),
                 message("teeth without a module"),

@@ -256,8 +256,8 @@ def teeth_hint(scene: Scene, rolling: Rolling, apart: WheelsApart) -> Message:
     if many < 1 or abs(many - teeth * needed) > TOUCH * many:
         return NO_WORDS
     return message(
-        "{many} teeth instead of {teeth} would touch there; profile-shifted gears have a radius "
-        "for each distance",
+        "{many} teeth instead of {teeth} would touch there; for profile-shifted gears, write a "
+        "radius for each centre distance",
         many=many,
         teeth=track.teeth.written(scene.values),
     )

@@ -91,7 +91,7 @@ def labelled(label: str, lines: Sequence[str], width: int = 11) -> list[str]:
 
 
 Say = Callable[[str], None]
-"""Receives in words how far a work is that takes seconds."""
+"""Receives progress in words, during work that takes seconds."""
 
 
 def listed(names: Iterable[str], most: int = 12) -> str:

@@ -380,7 +380,7 @@ def animation_files(
 ) -> dict[str, bytes]:
     """The animation files of a cycle by name, for the formats ``gif`` and ``html``.
 
-    ``language`` None means the scene's own language; ``say`` receives how far the work is. Raises
+    ``language`` None means the scene's own language; ``say`` receives the progress. Raises
     SceneError where nothing can move.
     """
     if not {"gif", "html"} & set(formats):

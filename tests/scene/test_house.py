@@ -300,6 +300,12 @@ def test_check_reads_a_house_and_other_commands_tell_it_from_a_scene(
     assert "did you mean house.toml" not in near.output
 
 
+def test_check_knows_conventions_by_their_tables_under_any_name(run: Run, tmp_path: Path) -> None:
+    german = tmp_path / "german.toml"
+    german.write_text('graphkin = 1\n[pages]\nlanguage = "de"\n', encoding="utf-8")
+    assert run("check", german).output == "language de\n"
+
+
 def test_a_class_keeps_the_conventions_it_was_made_with(
     run: Run, school: Path, tmp_path: Path
 ) -> None:

@@ -185,7 +185,7 @@ def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
 
 
 def in_other_units(keys: Keys, answers: Any, sizes: Any) -> None:
-    """Raise RosterError where all columns with one unit of length are off by one power of ten.
+    """Raise RosterError where all columns of one unit are off by the same power of ten.
 
     These are the lengths in a plan, or speeds and accelerations together.
     """
@@ -220,7 +220,7 @@ def of_unit(keys: Keys, places: Sequence[int], power: int) -> Problem:
     hint = message("correct the columns, or mark them with --as-it-is")
     if unit:
         hint = message(
-            'write the unit into the heads, such as "{head}", or mark with --as-it-is',
+            'write the unit in the heads, such as "{head}", or mark with --as-it-is',
             head=f"{first.field} [{unit}]",
         )
     columns = ", ".join(f'"{item.field}"' for item in items)

@@ -129,7 +129,7 @@ class FairRanges(Struct, frozen=True):
 def fair_ranges(lab: Lab, say: Say = lambda words: None) -> FairRanges:
     """Try the whole space of a scene's parameters, and find the ranges in which all is fair.
 
-    ``say`` receives how far the work is. Raises SceneError where no parameter of the scene has both
+    ``say`` receives the progress. Raises SceneError where no parameter of the scene has both
     ends.
     """
     say("trying variants")

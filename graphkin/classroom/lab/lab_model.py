@@ -149,8 +149,8 @@ class LabRule(Struct, frozen=True):
 
     ``draws`` are ranges of parameters, from which a hash of course, lab and student picks. Unfair
     data are drawn again, at most ``tries`` times. ``settings`` gives parameters as expressions in
-    ``number``; where nothing is drawn, the same number always gets the same data. ``positions`` are
-    the values of a parameter of which each student gets several.
+    ``number``; where nothing is drawn, the same number always gets the same data. ``positions``
+    gives each student several values of one parameter, each on its own sheet.
     """
 
     course: str = ""

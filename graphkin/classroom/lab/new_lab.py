@@ -435,7 +435,7 @@ def lab_from(
 ) -> OwnLab:
     """Make the folder of a lab for a scene, with the ranges in which all its variants are fair.
 
-    The scene is copied unchanged; ``say`` receives how far the work is. Raises SceneError for a
+    The scene is copied unchanged; ``say`` receives the progress. Raises SceneError for a
     scene with a problem or without a
     parameter that has both ends, and for a name that is no folder name on some system; PageError
     for files in the way.

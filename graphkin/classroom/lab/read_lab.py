@@ -193,7 +193,7 @@ def read_positions(table: Table, scene: Scene) -> SeveralValues | None:
         table.findings.add(place, shown(raw), expected)
     elif values is not None:
         expected = message(
-            "how many, such as {example}, or a list of {least} to {most} formulas of the number",
+            "a count, such as {example}, or a list of {least} to {most} formulas of the number",
             example=3,
             least=FEWEST,
             most=MOST_SHEETS,

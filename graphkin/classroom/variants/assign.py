@@ -95,7 +95,7 @@ def assigned(
 ) -> list[Assigned]:
     """The data of each student by the lab's rule, the whole class judged in one batch.
 
-    ``say`` receives how far the work is.
+    ``say`` receives the progress.
 
     Data drawn from ranges are drawn again if they are unfair or too close to those of an earlier
     student, as often as the rule allows; the least unfair are kept.

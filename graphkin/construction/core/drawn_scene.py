@@ -337,7 +337,7 @@ class Drawing(Struct, frozen=True, dict=True):
         return f"{self.rate.letter}_{link}"
 
     def turnings(self, link: str) -> Mapping[str, float]:
-        """What turns a link on this sheet, by the names of the symbols."""
+        """The rate of a link on this sheet, by the name of its symbol; empty without one."""
         value = self.turning(link)
         return {} if value is None else {self.turning_name(link): value}
 

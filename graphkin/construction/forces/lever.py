@@ -182,7 +182,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
 
     @property
     def last(self) -> str:
-        """The role of its result, at which it is said."""
+        """The role of its result."""
         return "force" if self.omega is None else "moment"
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -258,7 +258,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         )
 
     def by_rate(self, drawing: Drawing, size: float) -> str:
-        """The sum of moments of a lever without a balancing force, over the crank's rate."""
+        """The sum of moments divided by the crank's rate, without a balancing force."""
         words = drawing.words
         fields = {"m": symbol(self.moment_name), "f": symbol(self.moment_name)}
         if not size:
@@ -273,7 +273,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         )
 
     def in_metres(self, drawing: Drawing) -> bool:
-        """Whether arms count in m/s: beside couples, or over a rate."""
+        """Whether arms are in m/s: where there are couples, or where a rate divides the sum."""
         return self.omega is not None or any(not each[3] for each in self.terms(drawing))
 
     def below(self, drawing: Drawing) -> str:
@@ -423,7 +423,7 @@ class LeverPlan:
         couples: Sequence[tuple[str, str, int]],
         other: int,
     ) -> None:
-        """The moment of a crank with no point but its pivot, over its rate."""
+        """The moment of a crank with no point but its pivot, from the loads' power and its rate."""
         pen, omega = self.pen, omega_of(self.pen, link)
         pairs = [n for _, _, foot, force in forces for n in (foot, force)]
         with pen.on(Part.FORCE, Plane.NUMBERS):

@@ -111,7 +111,7 @@ class LineForce(Construction, frozen=True, kw_only=True):
         )
 
     def below(self, drawing: Drawing) -> str:
-        """The arm in symbols, in metres beside couples."""
+        """The arm in symbols; in metres where there are couples."""
         below: str = symbol(self.number)
         return f"({below}·*k*_L)" if self.moments.in_metres(drawing) else below
 

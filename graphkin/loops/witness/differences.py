@@ -95,7 +95,7 @@ def jerks(solved: LoopSolution) -> Jerks:
 def bounds(
     solved: LoopSolution, rates: Reals, seconds: Reals, thirds: Reals, jacobian: Reals
 ) -> tuple[Reals, Reals, Reals]:
-    """The bounds of the jerks of all points and origins, and of what swings their arms.
+    """The error bounds of the jerks of all points and origins, and of the rates that turn links.
 
     They are found as those of accelerations are: (N, points) and twice (N, links).
     """

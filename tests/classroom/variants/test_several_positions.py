@@ -163,7 +163,7 @@ def test_the_manifest_says_whose_sheet_it_is(drawn, tmp_path):
         ('course = "c"\npositions = { p = 13 }', "positions.p: 13; expected a whole number"),
         ("positions = { p = 3 }", "course: is missing"),
         ('positions = { p = ["1", "2"] }', "no formula uses number"),
-        ('course = "c"\npositions = { p = "many" }', "expected how many, such as 3"),
+        ('course = "c"\npositions = { p = "many" }', "expected a count, such as 3"),
         (f'{FORMULAS}\nset = {{ p = "number" }}', "set or draw gives p as well"),
     ],
 )
