@@ -208,10 +208,13 @@ def warn_of_languages(roster: str, students: list[Student]) -> None:
 
 def warn_of(found: list[Assigned]) -> None:
     """Warn of unfair data on standard error, and end with the status for them."""
+    from graphkin.classroom.roster.students import counted
+
     unfair = sum(not each.fair for each in found)
     if unfair:
-        students = "student has" if unfair == 1 else "students have"
-        complain(f"{unfair} {students} unfair data")
+        what = counted(each.student for each in found)
+        who = f"{what.removesuffix('s')} has" if unfair == 1 else f"{what} have"
+        complain(f"{unfair} {who} unfair data")
         leave(FAILED)
 
 
@@ -256,7 +259,7 @@ SHOWN = 5
     type=click.IntRange(1, 1000),
     default=30,
     show_default=True,
-    help="Largest number of variants.",
+    help="Largest number of variants; each of a student's several positions is a question.",
 )
 @formats_option(
     "moodle,canvas,qti3",

@@ -144,8 +144,9 @@ def grade(  # noqa: PLR0915
     be read, or that is signed with the id of another student. All other answers are marked.
 
     The class is looked at as a whole first. Nothing is marked where rows or columns are shifted or
-    in another order, where columns lost their decimal points or are in another unit, or where the
-    answers are those of another lab or scale. --as-it-is marks such a class.
+    in another order, where columns lost their decimal points, where all lengths, or all speeds and
+    accelerations, are off by one power of ten, or where the answers are those of another lab or
+    scale. A single column in another unit is marked. --as-it-is marks such a class.
 
     The tolerance of a value is the error of a careful pencil in that student's own drawing;
     tolerances.csv lists the tolerances. A sheet with wrong values is first explained as a whole: a

@@ -104,6 +104,7 @@ def print_sheets(
     from graphkin.classroom.printing.edition import keep_language, read_edition
     from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
     from graphkin.classroom.printing.workers import CLUSTER, cores
+    from graphkin.classroom.roster.students import counted
 
     chosen = option_words("--view", views, PRINTED_VIEWS)
     kinds = option_words("--format", formats, ("pdf", "svg", "html"))
@@ -115,12 +116,13 @@ def print_sheets(
         raise click.UsageError(f"--view {paper[0]} is for paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):
         raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
-    with progress() as tell:
-        edition = read_edition(folder)
+    edition = read_edition(folder)
+    what = counted(taker.student for taker in edition.takers)
+    with progress(what) as tell:
         ink = ink or edition.lab.house.ink
         wishes = PrintRequest(chosen, kinds, lang, ink, force)
         outcome = print_class(edition, wishes, Means(jobs or cores(), cluster), tell)
-    report(outcome)
+    report(outcome, what)
     if lang and lang != edition.language and (force or not edition.language):
         keep_language(folder, lang)
         say(f"{folder} keeps --lang {lang} for print, read and grade")
@@ -129,7 +131,7 @@ def print_sheets(
 
 
 @contextmanager
-def progress(what: str = "students") -> Iterator[Tell]:
+def progress(what: str) -> Iterator[Tell]:
     """A progress display: a bar on a terminal, else a line for each tenth."""
     if sys.stderr is not None and sys.stderr.isatty():
         with click.progressbar(length=1, label=what, show_pos=True, file=sys.stderr) as bar:
@@ -163,8 +165,11 @@ def lost_words(student: Student) -> str:
     return f'{student.id}: the font of the sheets lacks {signs} of "{whole}"; {instead}'
 
 
-def report(outcome: Outcome) -> None:
-    """Report a run: the files to print, and the students without files, with the reasons."""
+def report(outcome: Outcome, what: str) -> None:
+    """Report a run: the files to print, and the students without files, with the reasons.
+
+    ``what`` is the name of what is counted, students or sheets.
+    """
     if outcome.left:
         complain(f"an earlier run did not end ({outcome.left}); what it had finished was kept")
     for student in outcome.lost:
@@ -175,7 +180,7 @@ def report(outcome: Outcome) -> None:
         for problem in problems:
             complain(f"{taker.student.id} {taker.student.name}: {problem}")
     stood = f", {outcome.stood} stood already" if outcome.stood else ""
-    say(f"{outcome.made} student{'' if outcome.made == 1 else 's'} printed{stood}")
+    say(f"{outcome.made} {what.removesuffix('s') if outcome.made == 1 else what} printed{stood}")
     for path in outcome.files or [outcome.folder]:
         say(str(path))
 

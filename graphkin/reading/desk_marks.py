@@ -33,7 +33,7 @@ from graphkin.classroom.grading.feedback import (
     points_words,
     row_of,
 )
-from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
+from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Status
 from graphkin.classroom.grading.kept_marks import KeptReport
 from graphkin.classroom.roster.students import signs
 from graphkin.reading.desk_queue import DeskItem, DeskQueue
@@ -242,11 +242,14 @@ class MarkDesk(Struct, dict=True):
         return Decision(*place, points, getattr(ruling, "reason", ""), at_desk=True)
 
     def causes(self, item: DeskItem) -> list[str]:
-        """The causes that explain the sheets of an appeal, as browser markup."""
-        if item.kind != "appeal":
-            return []
-        graded = self.queue.graded[item.places[0][0]]
-        return [marked_up(cause_sentence(each, self.words)) for each in graded.causes]
+        """The causes that explain an appeal's sheet or a row that is shown, as browser markup."""
+        found: dict[str, None] = {}
+        for who, name in (*item.places, *item.shown):
+            graded = self.queue.graded[who]
+            explained = name and graded.mark(name).status is Status.CAUSE
+            if item.kind == "appeal" or explained:
+                found |= dict.fromkeys(cause_sentence(each, self.words) for each in graded.causes)
+        return [marked_up(each) for each in found]
 
     def decided(self, item: DeskItem) -> list[str]:
         """What was decided about an item, by whom; each sentence once."""

@@ -84,7 +84,7 @@ def marked_sheet(
     points = settled_points(record, standing)
     here = [each for each in standing.values() if each.sheet == record.name]
     notes = {each.step: each.note for each in here if each.step is not None}
-    who = taker.student.name or taker.student.id
+    who = taker.student.title
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
     pins = tuple(remarks_on(record, settled))

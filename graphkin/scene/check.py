@@ -332,7 +332,7 @@ def check_drivers(scene: Scene, findings: Findings) -> None:
 
 def check_driver(scene: Scene, driver: Driver, place: str, findings: Findings) -> None:
     """Note a driver of an unknown link, of a link against itself, or without a guide."""
-    link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings)
+    link = known_link(scene, driver.link, f"{place}.{driver.kind}", findings, moves=True)
     against = known_link(scene, driver.against, f"{place}.against", findings)
     if link is None or against is None:
         return

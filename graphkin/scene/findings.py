@@ -118,7 +118,9 @@ class Table:
         if isinstance(raw, str) and raw in words:
             return raw
         if raw is not None or not default:
-            hint = nearest(raw, words) if isinstance(raw, str) else NO_WORDS
+            hint: Hint = NO_WORDS
+            if isinstance(raw, str):
+                hint = nearest(raw, words) or abbreviated(raw, words)
             found = message("is missing") if raw is None else shown(raw)
             self.findings.add(self.at(key), found, listed(words), hint)
         return default or words[0]
@@ -175,6 +177,12 @@ def nearest(name: str, known: Iterable[str]) -> Hint:
     """A correction of an unknown name to the nearest known one; "" when none is near."""
     near = near_name(name, known)
     return Mend(name, near) if near else NO_WORDS
+
+
+def abbreviated(name: str, known: Iterable[str]) -> Hint:
+    """A correction to the only known short form of a name: "in" for "inch"; "" if there is none."""
+    short = [each for each in known if len(each) == SHORT and name.lower().startswith(each)]
+    return Mend(name, short[0]) if len(short) == 1 else NO_WORDS
 
 
 def near_name(name: str, known: Iterable[str]) -> str:

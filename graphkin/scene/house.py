@@ -217,7 +217,8 @@ def logo(table: Table, key: str, folder: str) -> Logo | None:
 
 def unreadable(error: Exception) -> Message:
     """Why a file cannot be read."""
-    reason = getattr(error, "strerror", None) or message("cannot be opened")
+    said = getattr(error, "strerror", None) or ""
+    reason = f"{said[:1].lower()}{said[1:]}" or message("cannot be opened")
     return message("cannot be read: {reason}", reason=reason)
 
 

@@ -18,12 +18,18 @@ from graphkin.text.errors import Message, message
 THE_MECHANISM = message("the mechanism")
 
 
-def known_link(scene: Scene, name: str, place: str, findings: Findings) -> Link | None:
-    """The link with a name; None, with a problem noted, when there is none."""
+def known_link(
+    scene: Scene, name: str, place: str, findings: Findings, *, moves: bool = False
+) -> Link | None:
+    """The link with a name; None, with a problem noted, when there is none.
+
+    Of a link that ``moves``, the problem does not propose the frame.
+    """
     if name == FRAME or name in scene.links:
         return scene.link(name)
     found = message("link {name} is not in [links]", name=name)
-    findings.add(place, found, listed((FRAME, *scene.links)), nearest(name, scene.links))
+    names = tuple(scene.links) if moves else (FRAME, *scene.links)
+    findings.add(place, found, listed(names), nearest(name, scene.links))
     return None
 
 

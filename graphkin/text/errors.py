@@ -211,8 +211,11 @@ class Problem(Struct, frozen=True):
 
     @property
     def help(self) -> Message:
-        """The hint in words."""
-        return self.hint.message if isinstance(self.hint, Mend) else self.hint
+        """The hint in words; none where it repeats what was expected."""
+        if not isinstance(self.hint, Mend):
+            return self.hint
+        repeats = not self.hint.words and self.hint.new == self.expected
+        return NO_WORDS if repeats else self.hint.message
 
     @property
     def message(self) -> Message:

@@ -239,6 +239,23 @@ def test_an_appeal_is_asked_answered_and_kept(a_class: Path, report: Path) -> No
     assert "being looked at: but why" in feedback(report, ids()[5])
 
 
+def test_a_row_that_a_cause_explains_is_shown_with_the_cause(a_class: Path, tmp_path: Path) -> None:
+    """Its row says "the mistake named above"."""
+    written = (a_class / "answers.csv").read_text(encoding="utf-8")
+    table = list(csv.DictReader(io.StringIO(written)))
+    table[7]["v_C"] = table[7]["v_C"].replace(".", ",,")
+    with (tmp_path / "answers.csv").open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, list(table[0]))
+        writer.writeheader()
+        writer.writerows(table)
+    given = (a_class / "class", tmp_path / "answers.csv", "-o", tmp_path / "report")
+    ran("grade", *given, "--format", "html", "--jobs", 1)
+    session = desk(tmp_path / "report")
+    every = [session.item(each["name"]) for each in session.everything()["items"]]
+    above = [item for item in every if any("named above" in row["why"] for row in item["rows"])]
+    assert above and all(item["causes"] for item in above)
+
+
 def test_an_appeal_on_what_a_cause_explains_is_about_its_cost(a_class: Path, report: Path) -> None:
     """The field has all its points already; the sum shows what the desk decided."""
     who = ids()[7]

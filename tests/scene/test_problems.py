@@ -140,7 +140,7 @@ CASES = [
     ),
     (SLIDES, 'slides = [1, { on = 3, along = "A-B" }]', "links.5.slides[0]", "1", "a table"),
     # drivers
-    ("turn = 1", "turn = 8", "drivers[0].turn", "link 8 is not in [links]", "one of 0, 1"),
+    ("turn = 1", "turn = 8", "drivers[0].turn", "link 8 is not in [links]", "one of 1, 2"),
     ("turn = 1", "turn = 0", "drivers[0].turn", "against the frame, which is at rest", ""),
     ("turn = 1", "turn = 2\nagainst = 2", "drivers[0].turn", "against itself", ""),
     (TURNED, "slide = 5\nagainst = 5\nposition", "drivers[0].slide", "itself", "against = 0"),
@@ -500,3 +500,33 @@ def test_a_batch_wants_one_number_for_each_variant(run: str) -> None:
     with pytest.raises(SceneError) as raised:
         getattr(slider, run)(n=[1, 2, 3], r=[50, 51])
     assert str(raised.value) == "r: 2 values beside 3 of n; expected as many, or one"
+
+
+def refused(text: str, settings: dict[str, str] | None = None) -> str:
+    with pytest.raises(SceneError) as error:
+        read_text(text, "scene.toml", settings=settings or {})
+    return str(error.value)
+
+
+OWN_POSITION = scene_text("motion/own-position")
+
+
+def test_a_hint_does_not_repeat_what_was_expected() -> None:
+    said = refused(OWN_POSITION, {"q": "3"})
+    assert said == 'setting q: "q" is no parameter; expected p'
+
+
+def test_the_frame_is_not_proposed_for_a_driver() -> None:
+    said = refused(OWN_POSITION.replace("turn = 1", "turn = 9"))
+    assert "link 9 is not in [links]; expected one of 1, 2" in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "meant"),
+    [
+        ('speed = "rev/min" }', 'speed = "rev/min", results = "inch" }', "in"),
+        ("[ask]", '[sheet]\nlanguage = "deutsch"\n[ask]', "de"),
+    ],
+)
+def test_a_long_form_of_a_short_word_is_recognised(old: str, new: str, meant: str) -> None:
+    assert refused(OWN_POSITION.replace(old, new)).endswith(f"did you mean {meant}?")

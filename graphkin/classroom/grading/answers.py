@@ -600,6 +600,8 @@ class AnswerReading(Struct, dict=True):
             found = message('"{sign}" is no student of this class', sign=visible(sign))
             few = len(sign) <= LONGEST_ID and len(self.answers.refused) < MOST_NEAR
             hint = (nearest(sign, sorted(self.signs.ids)) if few else NO_WORDS) or ABSENT
+            if own := self.signs.sheets(sign):
+                hint = message("write a row for each sheet: {ids}", ids=", ".join(own))
         elif owners and who not in owners:
             expected = verbatim(owners[0]) if by else message("one id")
             found = message(

@@ -25,7 +25,7 @@ from graphkin.classroom.grading.graded import (
     Suspicion,
 )
 from graphkin.classroom.lab.lab_model import Item
-from graphkin.classroom.roster.students import Student, Taker
+from graphkin.classroom.roster.students import Counted, Student, Taker, counted
 from graphkin.drawing.richtext import pieces, plain
 from graphkin.text import LANGUAGES, Words
 from graphkin.writers.plot_style import INK, figure_file, look, new_figure
@@ -145,7 +145,7 @@ def distribution(graded: Sequence[Graded], words: Words) -> Figure:
     ax.set_xticks(edges)
     ax.yaxis.get_major_locator().set_params(integer=True)
     ax.set_xlabel(words("class.percent_axis"))
-    ax.set_ylabel(words("class.count_axis"))
+    ax.set_ylabel(words(f"class.{counted_in(graded)}"))
     ax.grid(axis="x", visible=False)
     return drawn
 
@@ -188,7 +188,7 @@ def frequent(graded: Sequence[Graded], words: Words) -> Figure:
     ax.set_ylim(height, 0)
     ax.set_xlim(0, max(c[2] for c in counts) * 1.08)
     ax.xaxis.get_major_locator().set_params(integer=True)
-    ax.set_xlabel(words("class.count_axis"))
+    ax.set_xlabel(words(f"class.{counted_in(graded)}"))
     ax.grid(axis="y", visible=False)
     return drawn
 
@@ -232,6 +232,7 @@ def class_report(
         title=title,
         summary=summary(result.graded, words),
         pictures={name: b64encode(png).decode("ascii") for name, png in pngs.items()},
+        counted=words(f"class.{counted_in(own)}"),
         causes=[(cause_sentence(each, words), *counts) for each, *counts in cause_counts(own)],
         wrong_variants=list(wrong_variant_lines(result, words)),
         copies=[copies_words(each, names, words) for each in result.copies],
@@ -258,6 +259,11 @@ def own_work(result: Result) -> list[Graded]:
     return [g for g in result.graded if g.present and g.taker.student.id not in others]
 
 
+def counted_in(graded: Iterable[Graded]) -> Counted:
+    """The name of what is counted: students, or their sheets."""
+    return counted(each.taker.student for each in graded)
+
+
 def summary(graded: Sequence[Graded], words: Words) -> str:
     """How many students handed in answers, or how many sheets; their mean and median."""
     shares = [float(100 * g.share) for g in graded if g.share is not None]
@@ -266,8 +272,7 @@ def summary(graded: Sequence[Graded], words: Words) -> str:
         for name, found in (("mean", mean), ("median", median))
     }
     present = sum(each.present for each in graded)
-    several = any(each.taker.student.owner for each in graded)
-    key = "class.summary_sheets" if several else "class.summary"
+    key = "class.summary_sheets" if counted_in(graded) == "sheets" else "class.summary"
     text = words(key, present=present, all=len(graded), **amounts)
     waiting = sum(bool(each.pending) for each in graded)
     return f"{text}; {words('class.pending', count=waiting)}" if waiting else text
@@ -311,7 +316,13 @@ def everybody_lines(result: Result, words: Words) -> Iterator[str]:
     counts = Counter(name for each in present for name in {c.name for c in each.causes})
     for name, count in counts.items():
         if len(present) >= FEW and count >= EVERYBODY * len(present):
-            yield words("class.everybody_row", cause=name, count=count, all=len(present))
+            yield words(
+                "class.everybody_row",
+                cause=name,
+                count=count,
+                all=len(present),
+                whom=words(f"class.{counted_in(present)}"),
+            )
 
 
 def computed_lines(result: Result, words: Words) -> Iterator[str]:

@@ -391,13 +391,19 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
     causes = graded.causes
     if not causes or not is_shown(graded):
         return []
-    own = (mark.points - mark.earned for mark in graded.marks if mark.status is Status.CAUSE)
-    cost = points_words(graded.cost + sum(own), words)
-    sentences = [cause_sentence(cause, words) for cause in causes]
-    if len(causes) == 1:
-        parts = [words("feedback.one_mistake", cost=cost, cause=sentences[0])]
-    else:
-        parts = [words("feedback.two_mistakes", cost=cost, cause=sentences[0], other=sentences[1])]
+    said = (cause_sentence(cause, words) for cause in causes)
+    sentences = dict(zip(("cause", "other"), said, strict=False))
+    costing, free = (
+        ("feedback.one_mistake", "feedback.one_mistake_free")
+        if len(causes) == 1
+        else ("feedback.two_mistakes", "feedback.two_mistakes_free")
+    )
+    cost = points_words(graded.cost, words)
+    opening = words(costing, cost=cost, **sentences) if graded.cost else words(free, **sentences)
+    parts: list[str] = [opening]
+    caused = (m for m in graded.marks if m.status is Status.CAUSE and m.item.what == "sense")
+    if lost := sum((mark.points for mark in caused if not mark.earned), Fraction()):
+        parts.append(words("feedback.senses_lost", points=points_words(lost, words)))
     shows = (shows_sentence(cause, words) for cause in causes)
     parts += [words("feedback.mistake_shows", where=each) for each in shows]
     open_yet = (Status.WRONG, Status.FOLLOWS)
@@ -512,7 +518,7 @@ def feedback_pages(
                 ),
                 *marks,
             ),
-            f"{title} – {graded.taker.student.name or graded.taker.student.id}",
+            f"{title} – {graded.taker.student.title}",
             words.language,
         )
         for number, marks in enumerate(bodies, 1)

@@ -14,6 +14,9 @@ from tempfile import TemporaryDirectory
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.causes import Variants
+from graphkin.classroom.grading.readings import FormFields
+from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges, space_of
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.fairness_words import draw_words, limit_words
@@ -29,12 +32,14 @@ from graphkin.classroom.lab.items import (
     vector_items,
 )
 from graphkin.classroom.lab.lab_model import (
+    ANOTHER,
     GRADES,
     NAMES,
     Item,
     Lab,
     LabRule,
     Range,
+    Rubric,
     SeveralValues,
     ValueList,
     exact_text,
@@ -381,6 +386,13 @@ def causes() -> Mapping[str, str]:
     return {name: text_of(spoken(f"cause.{name}")) for name in NAMES}
 
 
+def causes_of(mechanism: Mechanism) -> Mapping[str, str]:
+    """The causes that can occur in a mechanism's fields, by name, with what the student did."""
+    whole = standard(mechanism, all_fields(mechanism).values(), Rubric())
+    found = {ANOTHER, *(cause.name for cause in FormFields(Variants((whole,))).causes)}
+    return {name: said for name, said in causes().items() if name in found}
+
+
 START = Path(__file__).parent / "start"
 FILES = (SCENE, LAB)
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
@@ -463,7 +475,7 @@ def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> s
 
 
 def explained(text: str, mechanism: Mechanism) -> str:
-    """The text of a lab.toml with all fields of a mechanism and all causes, and their meanings."""
+    """The text of a lab.toml with all fields of a mechanism and its causes, and their meanings."""
     fields = fields_of(mechanism)
     stated = {line.partition(" =")[0] for line in text.splitlines()}
     lines = []
@@ -473,7 +485,8 @@ def explained(text: str, mechanism: Mechanism) -> str:
             more = ((f"# {each} = 1", note) for each, note in fields.items() if each not in stated)
             lines += [beside(*pair) for pair in more]
         elif line == "# CAUSES":
-            lines += [beside(f'# {n} = "{GRADES[n]}"', note) for n, note in causes().items()]
+            own = causes_of(mechanism).items()
+            lines += [beside(f'# {cause} = "{GRADES[cause]}"', said) for cause, said in own]
         else:
             lines.append(beside(line, fields[name]) if name in fields else line)
     return "\n".join(lines) + "\n"

@@ -150,9 +150,10 @@ def owner(taker: Taker, paper: SheetPaper = A3) -> Owner:
 def printable_name(student: Student) -> str:
     """A student's name and group in signs of the sheet's font.
 
-    The id replaces a missing name, and a name of which the font has no letter.
+    The id replaces a missing name, and a name of which the font has no letter. It precedes the name
+    on each of several sheets of a student.
     """
-    name = student.name if is_readable(student.name) else student.id
+    name = student.with_part(student.name if is_readable(student.name) else student.id)
     return ", ".join(filter(None, (writable(name) or UNKNOWN, writable(student.group))))
 
 

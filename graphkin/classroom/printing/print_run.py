@@ -404,5 +404,4 @@ def parts(folder: Path, members: Members) -> Iterator[PdfPart]:
 def bookmark(taker: Taker) -> str:
     """The bookmark of a student: name, or id, and group."""
     student = taker.student
-    name = student.name or student.id
-    return f"{name}, {student.group}" if student.group else name
+    return f"{student.title}, {student.group}" if student.group else student.title

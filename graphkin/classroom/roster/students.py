@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Literal
@@ -39,6 +40,23 @@ class Student(Struct, frozen=True):
     def called(self) -> str:
         """The student's name and id, as notes name a student."""
         return f"{self.name} ({self.id})" if self.name else self.id
+
+    @property
+    def title(self) -> str:
+        """The name by which pages address the student, after the id of one of several sheets."""
+        return self.with_part(self.name or self.id)
+
+    def with_part(self, name: str) -> str:
+        """A name after the id of one of several sheets: "101-2 Anna Weber"."""
+        return f"{self.id} {name}" if self.part and name != self.id else name
+
+
+Counted = Literal["students", "sheets"]
+
+
+def counted(students: Iterable[Student]) -> Counted:
+    """The name of what entries count: sheets where a student has several."""
+    return "sheets" if any(each.part for each in students) else "students"
 
 
 HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
@@ -145,6 +163,10 @@ class Signs(Struct, frozen=True):
         """The id of the student with this id, code or address; None if there is no such student."""
         known = self.exact.get(sign) or self.emails.get(sign.casefold())
         return known or (self.bare.get(sign.lstrip("0")) if sign.isdecimal() else None)
+
+    def sheets(self, owner: str) -> tuple[str, ...]:
+        """The ids of the sheets of a student who has several."""
+        return tuple(each for each in self.ids if re.fullmatch(f"{re.escape(owner)}-[0-9]+", each))
 
     def named(self, name: str) -> tuple[str, ...]:
         """The ids of the students with this name, whichever part of the name comes first."""

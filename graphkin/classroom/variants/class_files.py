@@ -21,7 +21,7 @@ from graphkin.classroom.lab.fairness_words import (
     spreads,
 )
 from graphkin.classroom.lab.lab_model import Lab, exact_text
-from graphkin.classroom.roster.students import Student
+from graphkin.classroom.roster.students import Student, counted
 from graphkin.classroom.variants.assign import (
     COPY,
     MANIFEST,
@@ -134,7 +134,8 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("rule", [rule_words(lab)])
     yield from labelled("limits", [limit_words(lab.fair)])
     fair = sum(each.fair for each in found)
-    yield from labelled("fair", [f"{fair} of {len(found)} students"])
+    what = counted(each.student for each in found)
+    yield from labelled("fair", [f"{fair} of {len(found)} {what}"])
     unfair = [
         (*who(each.student), data_words(each.settings), "; ".join(map(str, each.faults)))
         for each in found
@@ -151,7 +152,7 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     lengths = [each.shortest for each in drawn if each.shortest is not None]
     rays = [each.rays for each in drawn if each.rays is not None]
     if len(drawn) > COMPARED:
-        sample = f"{COMPARED} of {len(drawn)} students, evenly spaced in the list"
+        sample = f"{COMPARED} of {len(drawn)} {what}, evenly spaced in the list"
         yield from labelled("compared", [sample])
         drawn = [drawn[i * len(drawn) // COMPARED] for i in range(COMPARED)]
     names = [each.student.id for each in drawn]

@@ -116,7 +116,10 @@ def test_all_senses_reversed_are_worth_no_more_than_blank_ones():
     assert [cause.name for cause in found.causes] == ["sense_reversed"]
     assert found.earned <= blank
     lost = points_words(found.points - found.earned, words("en"))
-    assert notes(found, words("en"))[0].startswith(f"One mistake, −{lost} points")
+    told = notes(found, words("en"))[0]
+    assert found.cost == 0 and "−" not in told  # as deducted in marks.csv
+    assert told.startswith("One mistake: all senses were taken the other way.")
+    assert f"earn nothing (points: {lost})" in told
 
 
 def test_a_named_cause_never_costs_more_than_the_same_values_unexplained():

@@ -214,3 +214,9 @@ def test_no_text_on_a_page_stands_on_another(lab):
         for one, other in combinations(boxes, 2):
             wide, high = (min(one[i], other[i]) - max(one[i - 2], other[i - 2]) for i in (2, 3))
             assert min(wide, high) <= 1e-6, (one, other)
+
+
+def test_one_point_is_not_called_one_points():
+    said = words("en")
+    assert said("feedback.pending", fields="v_C", pending="1").endswith("at v_C (points: 1)")
+    assert "1 points" not in said("feedback.one_mistake", cost="1", cause="the scale was left out")

@@ -8,7 +8,7 @@ import pytest
 
 from graphkin.classroom.lab.items import all_fields
 from graphkin.classroom.lab.lab_model import NAMES
-from graphkin.classroom.lab.new_lab import causes, fields_of, new_lab
+from graphkin.classroom.lab.new_lab import causes, causes_of, fields_of, new_lab
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.mechanism import load
 from graphkin.text import words
@@ -31,7 +31,7 @@ def test_every_field_of_a_lab_is_of_a_kind_that_has_one(name):
     assert all(told.values())
 
 
-def test_the_rubric_of_a_new_lab_has_every_field_and_every_cause(tmp_path):
+def test_the_rubric_of_a_new_lab_has_every_field_and_the_causes_that_can_occur(tmp_path):
     """With all of them taken in the rubric is read, and none is missing."""
     new_lab("mine", tmp_path)
     path = tmp_path / "mine" / "lab.toml"
@@ -41,7 +41,11 @@ def test_the_rubric_of_a_new_lab_has_every_field_and_every_cause(tmp_path):
     lab = read_lab(tmp_path / "mine")
     fields = fields_of(load(lab.scene))
     assert set(lab.rubric.points) == set(fields)
-    assert set(lab.rubric.causes) == set(NAMES)
+    own = causes_of(load(lab.scene))
+    assert set(lab.rubric.causes) == set(own)
+    assert {"rpm_as_rad", "own_scale", "data_of_another"} <= set(own)
+    never = {"driver_acceleration_missing", "curvature_reversed", "rad_as_rpm"}
+    assert never.isdisjoint(own)
     assert before.rubric.causes == {}
-    for name, told in (fields | causes()).items():
+    for name, told in (fields | own).items():
         assert re.search(rf'(?m)^(# )?{name} = ([\d.]+|"\w+") +# {re.escape(told)}$', text), name

@@ -8,10 +8,12 @@ import zipfile
 from fractions import Fraction
 
 import pytest
+from msgspec.structs import replace
 
-from graphkin.classroom.grading.answers import packed_feedback
+from graphkin.classroom.grading.answers import packed_feedback, read_answers
 from graphkin.classroom.grading.class_marking import graded_class
-from graphkin.classroom.grading.class_report import summary
+from graphkin.classroom.grading.class_report import class_report, counted_in, summary
+from graphkin.classroom.grading.feedback import feedback_html
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import points_by_id, students_table
 from graphkin.classroom.lab.fair_ranges import fair_ranges
@@ -19,9 +21,11 @@ from graphkin.classroom.lab.lab_model import picked, settings, sheets
 from graphkin.classroom.lab.new_lab import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.edition import read_edition
+from graphkin.classroom.printing.personal import owner
+from graphkin.classroom.printing.print_run import bookmark
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
-from graphkin.classroom.variants.class_files import write_class
+from graphkin.classroom.variants.class_files import class_lines, write_class
 from graphkin.documents.positions import positions_of
 from graphkin.mechanism import load
 from graphkin.text import words
@@ -244,3 +248,35 @@ def test_sheets_too_near_to_another_students_are_drawn_again_together(tmp_path):
         assert len({each.attempt for each in own}) == 1
         assert len({each.settings["r"] for each in own}) == 1
         assert len({each.settings["p"] for each in own}) == 3
+
+
+def test_every_page_of_a_sheet_names_it_by_its_id(drawn, tmp_path):
+    edition = edition_of(drawn, tmp_path)
+    taker = edition.takers[1]
+    assert owner(taker).name == "0001-2 Name 1"
+    assert bookmark(taker) == "0001-2 Name 1"
+    found = graded_class(edition.book, edition.takers, {"0001-2": right(edition, taker)})
+    back = feedback_html(found.graded[1], "lab", drawn.rubric, words("en"))
+    assert "0001-2 Name 1" in back.partition("</title>")[0]
+    assert "0001-2 Name 1" in back.partition("</title>")[2]
+    unnamed = replace(taker, student=replace(taker.student, name=""))
+    assert owner(unnamed).name == "0001-2"
+
+
+def test_what_is_counted_are_sheets(drawn, tmp_path):
+    edition = edition_of(drawn, tmp_path)
+    assert "fair       30 of 30 sheets" in list(class_lines(drawn, assigned(drawn, STUDENTS)))
+    reversed_senses = {t.student.id: right(edition, t) for t in edition.takers}
+    found = graded_class(edition.book, edition.takers, reversed_senses)
+    assert counted_in(found.graded) == "sheets"
+    assert 'class="n">sheets</th>' in class_report(found, "lab", (), words("en"))
+
+
+def test_a_row_of_a_student_is_told_its_sheets(drawn, tmp_path):
+    signs = edition_of(drawn, tmp_path).signs
+    assert signs.sheets("0002") == ("0002-1", "0002-2", "0002-3")
+    assert signs.sheets("000") == ()
+    table = tmp_path / "answers.csv"
+    table.write_text("id,v_B,a_B\n0002,1,2\n", encoding="utf-8")
+    with pytest.raises(RosterError, match="write a row for each sheet: 0002-1, 0002-2, 0002-3"):
+        read_answers(table, edition_of(drawn, tmp_path).book.form, signs)
