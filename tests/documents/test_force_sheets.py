@@ -22,6 +22,7 @@ from graphkin.drawing.field import paper_of
 from graphkin.drawing.marks import LineMark, Page, Text, reach, style_class
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.style import FORCES, INKS
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.house import house_of
 from graphkin.scene.read_scene import read_scene, read_text
@@ -123,6 +124,23 @@ def test_checks_of_forces_stay_within_a_sheet_of_a4(name, language):
         for key in ("forces", "lever")
     )
     assert told[:-1] in " ".join(said) and told_lever[:-1] in " ".join(said)
+
+
+@pytest.mark.parametrize(("name", "number"), [("class-three", "h_11"), ("tipper", "h_3")])
+def test_an_arm_ends_at_the_edge_of_its_field_and_a_note_says_so(name, number):
+    page, *_ = sheet_of(name, "key")
+    left, top, right, low = forces_of(name).fields.mechanism.rect
+    on_mechanism = [mark for mark in page.marks if reach(mark)[0] < right]
+    arms = [m for m in on_mechanism if style_class(m) in ("dimension", "ray")]
+    arms += [m for m in on_mechanism if m.name == number and style_class(m) == "arrowhead"]
+    assert any(mark.name == number for mark in arms)
+    for mark in arms:
+        box = reach(mark)
+        assert left <= box[0] and box[2] <= right and top + 6.5 <= box[1] and box[3] <= low
+    heads = [m for m in arms if m.name == number and style_class(m) == "arrowhead"]
+    assert len(heads) == 1
+    said = plain(words("en")("page.arm_beyond", name=symbol(number)))
+    assert said in [plain(mark.markup) for mark in texts(page)]
 
 
 def sign(value: float) -> int:
