@@ -179,11 +179,11 @@ def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
     """The tables of a sheet, as paper rules them."""
     return [
         ColumnTable(
-            WIDTHS[table.kind],
+            WIDTHS[table.kind][: len(table.heads)],
             Row(table.heads),
             tuple(table.rows),
             beside=table.kind == "turns",
-            numbers=NUMBERS[table.kind],
+            numbers=tuple(i for i in NUMBERS[table.kind] if i < len(table.heads)),
         )
         for table in result_tables(drawing, empty=empty)
     ]
