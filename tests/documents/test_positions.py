@@ -320,3 +320,11 @@ def test_the_table_of_the_most_positions_stays_above_the_foot_and_is_legible():
                 m for m in page.marks if isinstance(m, Text) and m.name in ("legend", "positions")
             ]
             assert max(m.corners()[2][1] for m in above) <= foot.corners()[0][1] + 0.3
+
+
+@pytest.mark.parametrize(("kind", "scaled"), [("velocity", False), ("acceleration", True)])
+def test_the_caption_of_plans_says_whether_all_have_one_scale(kind, scaled):
+    texts = [mark for mark in sheets("five-bar")[kind].marks if isinstance(mark, Text)]
+    (said,) = (mark.markup for mark in texts if "own pole" in mark.markup)
+    assert any(mark.name.startswith("scale_") for mark in texts) is scaled
+    assert ("all at one scale" in said) is not scaled
