@@ -283,7 +283,7 @@ def in_lines(
     captions, even below a title of two lines.
     """
     first, *pieces = (datum.said for datum in found)
-    pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
+    pieces = [f"{drawing.words('page.data')}{drawing.words('colon')}{first}", *pieces]
     paper = drawing.paper
     width = paper.left[2] - x - 3
     parted = words_of("; ".join(pieces))
@@ -660,7 +660,8 @@ def with_room(
     try:
         return list(made()), set()
     except PageError:
-        where = f"{drawing.words(f'page.{part.value}')}: {drawing.words('page.moved')}"
+        words = drawing.words
+        where = f"{words(f'page.{part.value}')}{words('colon')}{words('page.moved')}"
         return [Text(x, y, where, "caption", 2.5, name="moved")], {part}
 
 

@@ -460,10 +460,12 @@ def continued_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) ->
     words, width, lines = drawing.words, drawing.paper.left[2] - x - 3, list[str]()
     if Moved.DATA in moved:
         first, *others = (datum.said for datum in data_of(drawing, view))
-        lines += flowed([f"{words('page.data')}: {first}", *others], "; ", width, 2.5)
+        lines += flowed([f"{words('page.data')}{words('colon')}{first}", *others], "; ", width, 2.5)
     if Moved.ASKED in moved:
         first, *others = asked_words(drawing)
-        lines += flowed([f"{words('page.asked')}: {first}", *others], "; ", width, 2.5)
+        lines += flowed(
+            [f"{words('page.asked')}{words('colon')}{first}", *others], "; ", width, 2.5
+        )
     if Moved.MEMBERS in moved:
         lines.append(members(drawing))
     return [
