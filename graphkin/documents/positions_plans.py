@@ -105,8 +105,9 @@ def caption_scale(drawing: Drawing) -> str:
 def poles_said(marks: Sequence[Mark], *, one: bool) -> str:
     """The key of what the caption says on poles: one, or many at one scale or at some."""
     if one:
-        return "one_pole"
-    return "own_poles_scaled" if has_own_scales(marks) else "own_poles"
+        return "positions.one_pole"
+    scaled = has_own_scales(marks)
+    return "positions.own_poles_scaled" if scaled else "positions.own_poles"
 
 
 def has_own_scales(marks: Sequence[Mark]) -> bool:
@@ -119,7 +120,7 @@ def caption(found: PositionSet, drawing: Drawing, poles: str) -> Iterator[Mark]:
     words = drawing.words
     k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
     said = words(f"page.{drawing.kind}_heading", k=k)
-    yield from headline(found, f"{said};  {words(f'positions.{poles}')}")
+    yield from headline(found, f"{said};  {words(poles)}")
 
 
 def scale_lines(found: PositionSet, kind: str) -> list[str]:
