@@ -106,13 +106,8 @@ def poles_said(marks: Sequence[Mark], *, one: bool) -> str:
     """The key of what the caption says on poles: one, or many at one scale or at some."""
     if one:
         return "positions.one_pole"
-    scaled = has_own_scales(marks)
+    scaled = any(mark.name.startswith(f"{SCALE}_") for mark in marks)
     return "positions.own_poles_scaled" if scaled else "positions.own_poles"
-
-
-def has_own_scales(marks: Sequence[Mark]) -> bool:
-    """Whether a plan is drawn at a scale of its own, which stands beside its number."""
-    return any(mark.name.startswith(f"{SCALE}_") for mark in marks)
 
 
 def caption(found: PositionSet, drawing: Drawing, poles: str) -> Iterator[Mark]:
@@ -140,9 +135,7 @@ def scale_lines(found: PositionSet, kind: str) -> list[str]:
 
 
 def exceptions(found: PositionSet, drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
-    """What the sheet says of plans at a scale of their own, and of vectors that are cut off."""
-    if has_own_scales(marks):
-        yield drawing.words("positions.own_scale")
+    """What the sheet says of vectors that are cut off."""
     left, top, right, _ = rect = field_on(found)
     edge = left + EDGE, top + EDGE, right - EDGE, above_foot(rect)[3]
     ends = [(m.x2, m.y2) for m in marks if isinstance(m, LineMark) and BRIEF in m.cls]
