@@ -141,7 +141,7 @@ def test_a_plan_next_to_a_dead_point_has_its_scale_beside_its_number():
     (true,) = moved.along([place]).solution.points["D"].acceleration
     drawn = at["d′_11"] - at["o′_11"]
     assert drawn * number_in(text.markup, "= ") == pytest.approx(true, rel=1e-3)
-    assert any("unless another stands beside it" in each for each in said(page))
+    assert any("other scales beside it" in each for each in said(page))
     usual = number_in(next(each for each in said(page) if "mm)" in each), "*k*_a = ")
     assert number_in(text.markup, "= ") / usual == pytest.approx(5, rel=1e-3)
 
