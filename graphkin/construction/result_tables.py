@@ -196,8 +196,8 @@ def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
         why = drawing.computed.get(row.cells[0])
         if why:
             names.setdefault(why, []).append(row.cells[0])
-    mark = drawing.words("list_mark")
-    said = [f"{mark.join(dict.fromkeys(found))}: {why}" for why, found in names.items()]
+    mark, colon = drawing.words("list_mark"), drawing.words("colon")
+    said = [f"{mark.join(dict.fromkeys(found))}{colon}{why}" for why, found in names.items()]
     lines = flowed(said, "; ", rect[2] - rect[0], HEIGHT)
     first = rect[3] - LEADING * (len(lines) - 1)
     return [

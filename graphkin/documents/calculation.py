@@ -255,7 +255,7 @@ def broken(
     elif relation.result and not (solved or relation.given):
         parts = [*parts[:-1], f"{parts[-1]} {BLANK} {relation.unit}".rstrip()]
         if relation.turns:
-            parts.append(f"({drawing.words('table.sense')}: {BLANK})")
+            parts.append(f"({drawing.words('table.sense')}{drawing.words('colon')}{BLANK})")
     parts += [f"({hint})"] if hint else []
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
@@ -339,7 +339,7 @@ def page_of(
     sheet = drawing.scene.sheet
     made, whose = escape(sheet.author), escape(sheet.student)
     if view == "task" or whose or not made:
-        made = f"{words('block.creator')}: {made}" if made else ""
+        made = f"{words('block.creator')}{words('colon')}{made}" if made else ""
         foot = whose or words("page.student"), "   ".join(filter(None, (made, number)))
     else:
         foot = made, number

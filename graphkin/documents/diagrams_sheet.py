@@ -79,6 +79,8 @@ POINT = 0.7
 """Radius of a point in mm."""
 GROWN = 4.0
 """The largest mechanical advantage that is drawn, in medians."""
+ROUNDING = 1e-9
+"""The share of its natural size below which a rate is zero."""
 TICKS = 6
 """The most numbers along an axis of ordinates."""
 
@@ -132,11 +134,18 @@ def room_for_pole(motion: FollowerMotion) -> float:
 
 
 def frame_of(
-    motion: FollowerMotion, axes: Axes, name: str, unit: str, factor: float
+    motion: FollowerMotion,
+    axes: Axes,
+    name: str,
+    unit: str,
+    factor: float,
+    *,
+    is_zero: bool = False,
 ) -> Iterator[Mark]:
     """The axes of a diagram, its numbers, and the lines at the positions.
 
-    ``factor`` is the number of printed units in one SI unit.
+    ``factor`` is the number of printed units in one SI unit. A quantity that ``is_zero`` all along
+    has no numbers.
     """
     _, top, right, low = axes.rect
     words = motion.found.shown.alone.words
@@ -148,7 +157,8 @@ def frame_of(
         x, _ = axes.on_page(axes.place(float(u), 0.0))
         yield LineMark(x, top, x, low, "register", f"position {i}")
         yield Text(x + 0.7, axes.zero + 2.6, names[i], "caption", SMALL, name=f"position {i}")
-    yield from numbers_along(words, axes, name, factor, TICKS)
+    if not is_zero:
+        yield from numbers_along(words, axes, name, factor, TICKS)
 
 
 def axis_lines(axes: Axes, name: str, said: str) -> Iterator[Mark]:
@@ -389,8 +399,8 @@ def differentiation_page(motion: FollowerMotion, method: RateMethod, number: str
         *construction(first, rate, "velocity"),
         *construction(rate.axes, again, "acceleration"),
         *frame_of(motion, first, kinds[0], *units[0]),
-        *frame_of(motion, rate.axes, kinds[1], *units[1]),
-        *frame_of(motion, again.axes, kinds[2], *units[2]),
+        *frame_of(motion, rate.axes, kinds[1], *units[1], is_zero=is_zero(motion, 1)),
+        *frame_of(motion, again.axes, kinds[2], *units[2], is_zero=is_zero(motion, 2)),
         *course(motion, first, exact[0] - low, "profile", kinds[0]),
         *course(motion, rate.axes, exact[1], "trajectory", f"exact {kinds[1]}"),
         *course(motion, again.axes, exact[2], "trajectory", f"exact {kinds[2]}"),
@@ -719,13 +729,24 @@ def worst(values: Reals) -> float:
     return float(known.max(initial=0.0))
 
 
+def is_zero(motion: FollowerMotion, order: int) -> bool:
+    """Whether the speed (``order`` 1) or the acceleration (2) is zero all along, but for rounding.
+
+    It is compared with a rate that would change the quantity before it by its own size.
+    """
+    before, own = values_at(motion, motion.fine)[order - 1 : order + 1]
+    natural = worst(before) * abs(motion.pace) / float(motion.at[-1] - motion.at[0])
+    return worst(own) <= ROUNDING * natural
+
+
 def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
     """What the method costs in accuracy, against the exact course, and what the pencil adds."""
     words, found = motion.found.shown.alone.words, []
-    for name, cost in (
-        (motion.kinds[1], cost_of_rate(motion, rate)),
-        (motion.kinds[2], cost_of_second(motion, rate, again)),
-    ):
+    for order, cost in ((1, cost_of_rate(motion, rate)), (2, cost_of_second(motion, rate, again))):
+        name = motion.kinds[order]
+        if is_zero(motion, order):
+            found.append(words("diagrams.zero", v=name))
+            continue
         shares = {
             key: words.significant(100 * share, 2) if (share := getattr(cost, key)) < 1 else ">100"
             for key in ("chord", "forecast", "pencil")

@@ -78,7 +78,7 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
     name = words(NAMES[kind])
     whole: list[Mark] = [
         *heading(found, drawing, name),
-        *caption(found, drawing, one=one),
+        *caption(found, drawing, poles_said(marks, one=one)),
         *marks,
         *foot_line(found),
         *places_table(
@@ -102,13 +102,20 @@ def caption_scale(drawing: Drawing) -> str:
     return f"{figure(drawing, scale_of(drawing, drawing.plane) / 1000)} {unit}"
 
 
-def caption(found: PositionSet, drawing: Drawing, *, one: bool) -> Iterator[Mark]:
-    """The caption of the field: the scale of all plans, and where their poles are."""
+def poles_said(marks: Sequence[Mark], *, one: bool) -> str:
+    """The key of what the caption says on poles: one, or many at one scale or at some."""
+    if one:
+        return "positions.one_pole"
+    scaled = any(mark.name.startswith(f"{SCALE}_") for mark in marks)
+    return "positions.own_poles_scaled" if scaled else "positions.own_poles"
+
+
+def caption(found: PositionSet, drawing: Drawing, poles: str) -> Iterator[Mark]:
+    """The caption of the field: the scale of the plans, and where their poles are."""
     words = drawing.words
     k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
     said = words(f"page.{drawing.kind}_heading", k=k)
-    pole = words("positions.one_pole" if one else "positions.own_poles")
-    yield from headline(found, f"{said};  {pole}")
+    yield from headline(found, f"{said};  {words(poles)}")
 
 
 def scale_lines(found: PositionSet, kind: str) -> list[str]:
@@ -128,9 +135,7 @@ def scale_lines(found: PositionSet, kind: str) -> list[str]:
 
 
 def exceptions(found: PositionSet, drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
-    """What the sheet says of plans at a scale of their own, and of vectors that are cut off."""
-    if any(mark.name.startswith(f"{SCALE}_") for mark in marks):
-        yield drawing.words("positions.own_scale")
+    """What the sheet says of vectors that are cut off."""
     left, top, right, _ = rect = field_on(found)
     edge = left + EDGE, top + EDGE, right - EDGE, above_foot(rect)[3]
     ends = [(m.x2, m.y2) for m in marks if isinstance(m, LineMark) and BRIEF in m.cls]

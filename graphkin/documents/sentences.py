@@ -426,13 +426,12 @@ def forces_asked(drawing: Drawing) -> list[str]:
     return found
 
 
-def checked(drawing: Drawing) -> str:
-    """The line on the check of a sheet of forces."""
+def checked(drawing: Drawing) -> Iterator[str]:
+    """What a sheet of forces says on its checks: the equations, then each lever."""
     assert isinstance(drawing, ForceDrawing)
     words = drawing.words
     worst = words.significant(drawing.verdict.largest_difference, 2)
-    said = words("page.forces_verified", difference=worst)
+    yield words("page.forces_verified", difference=worst)
     for each in drawing.lever_balances():
         difference = words.significant(each.difference(drawing), 2) if each.size(drawing) else "0"
-        said += "; " + words("page.lever_verified", difference=difference)
-    return said
+        yield words("page.lever_verified", difference=difference)

@@ -202,13 +202,17 @@ def data_heading(
     ``spare`` is the height in mm that the drawings leave free below the captions. Many lines of
     data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
+    found = data_of(drawing, view)
+    return in_table(drawing.paper, found, x, y) or in_lines(drawing, found, x, y, spare)
+
+
+def data_of(drawing: Drawing, view: str) -> Sequence[Datum]:
+    """The data of a sheet: of the motion, or of the loads."""
     if drawing.kind == FORCE:
         from graphkin.documents.sentences import force_data
 
-        found = force_data(drawing, solved=view != "task")
-    else:
-        found = data(drawing, solved=view != "task", laws=True)
-    return in_table(drawing.paper, found, x, y) or in_lines(drawing, found, x, y, spare)
+        return force_data(drawing, solved=view != "task")
+    return data(drawing, solved=view != "task", laws=True)
 
 
 def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
@@ -279,7 +283,7 @@ def in_lines(
     captions, even below a title of two lines.
     """
     first, *pieces = (datum.said for datum in found)
-    pieces = [f"{drawing.words('page.data')}: {first}", *pieces]
+    pieces = [f"{drawing.words('page.data')}{drawing.words('colon')}{first}", *pieces]
     paper = drawing.paper
     width = paper.left[2] - x - 3
     parted = words_of("; ".join(pieces))
@@ -656,7 +660,8 @@ def with_room(
     try:
         return list(made()), set()
     except PageError:
-        where = f"{drawing.words(f'page.{part.value}')}: {drawing.words('page.moved')}"
+        words = drawing.words
+        where = f"{words(f'page.{part.value}')}{words('colon')}{words('page.moved')}"
         return [Text(x, y, where, "caption", 2.5, name="moved")], {part}
 
 
@@ -790,8 +795,11 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     paper = drawing.paper
     left, top, _, low = paper.below
     left += 2
+    width = paper.writing - left - 2
+    checks = [] if view == "task" else checked_lines(drawing, width)
+    first = low + 0.4 - CLOSE * (len(checks) - 1)
     if view == "key":
-        place = drawing, left, top + 10.5, paper.writing - left - 2, low - 3.5
+        place = drawing, left, top + 10.5, width, first - 3.9
         try:
             listing = listed(*place)
         except PageError:
@@ -812,19 +820,26 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     moved |= more
     if view == "task":
         return marks, moved, said
-    text = checked_line(drawing)
-    marks.append(Text(left, low + 0.4, text, "caption", LETTERS, name="witness"))
-    return [*marks, *flattest_line(drawing, left + extent(text, LETTERS)[0])], moved, said
+    marks += [
+        Text(left, first + CLOSE * i, text, "caption", LETTERS, name="witness")
+        for i, text in enumerate(checks)
+    ]
+    return [*marks, *flattest_line(drawing, left + extent(checks[-1], LETTERS)[0])], moved, said
 
 
-def checked_line(drawing: Drawing) -> str:
-    """The line on the difference of the independent route."""
+def checked_lines(drawing: Drawing, width: float) -> list[str]:
+    """The difference of the independent route, in as few lines of a width as hold it."""
     if drawing.kind == FORCE:
         from graphkin.documents.sentences import checked
 
-        return checked(drawing)
-    worst = drawing.words.significant(drawing.verdict.largest_difference, 2)
-    return drawing.words("page.verified", difference=worst)
+        said = [*checked(drawing)]
+    else:
+        worst = drawing.words.significant(drawing.verdict.largest_difference, 2)
+        said = [drawing.words("page.verified", difference=worst)]
+    lines = flowed(said, "; ", width, LETTERS)
+    if all(extent(line, LETTERS)[0] <= width for line in lines):
+        return lines
+    return flowed(words_of("; ".join(said)), " ", width, LETTERS)
 
 
 def construction_head(drawing: Drawing, x: float, y: float) -> Text:

@@ -15,7 +15,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.crossings import letter_of
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import given, variant
+from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.layout import (
     Layout,
     centre,
@@ -38,6 +38,7 @@ from graphkin.documents.sheet import (
     asked_words,
     boards,
     construction_head,
+    data_of,
     members,
     pages_of,
     parts_of,
@@ -458,11 +459,13 @@ def continued_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) ->
     """The moved data, requests and links, in lines across a sheet from a place on."""
     words, width, lines = drawing.words, drawing.paper.left[2] - x - 3, list[str]()
     if Moved.DATA in moved:
-        first, *others = given(drawing, solved=view != "task", laws=True)
-        lines += flowed([f"{words('page.data')}: {first}", *others], "; ", width, 2.5)
+        first, *others = (datum.said for datum in data_of(drawing, view))
+        lines += flowed([f"{words('page.data')}{words('colon')}{first}", *others], "; ", width, 2.5)
     if Moved.ASKED in moved:
         first, *others = asked_words(drawing)
-        lines += flowed([f"{words('page.asked')}: {first}", *others], "; ", width, 2.5)
+        lines += flowed(
+            [f"{words('page.asked')}{words('colon')}{first}", *others], "; ", width, 2.5
+        )
     if Moved.MEMBERS in moved:
         lines.append(members(drawing))
     return [

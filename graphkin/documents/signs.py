@@ -194,7 +194,9 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     if not rates:
         return
     words = drawing.words
-    caption = "; ".join(f"{drawing.symbol(n)}: {sense_word(words, r)}" for n, r in rates.items())
+    colon = words("colon")
+    said = (f"{drawing.symbol(n)}{colon}{sense_word(words, r)}" for n, r in rates.items())
+    caption = "; ".join(said)
     width, top, bottom = extent(caption, HEIGHT)
     half = width / 2, (bottom - top) / 2
     (left, high, right, low), air = space.rect, AIR + 0.1

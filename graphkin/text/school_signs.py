@@ -56,7 +56,7 @@ class SchoolSigns(Struct, frozen=True, dict=True):
         """The markup of each scale factor by its usual index: L, v, a; n of rates, F of forces."""
         found = self.by_usual("length_scale", "velocity_scale", "acceleration_scale")
         others = {f"k_{index}": f"{self.scale_letter}_{index}" for index in "nF"}
-        return {name[-1]: scale_markup(sign) for name, sign in (found | others).items()}
+        return {name[-1]: sign_markup(sign) for name, sign in (found | others).items()}
 
     @property
     def scale_letter(self) -> str:
@@ -94,22 +94,25 @@ class SchoolSigns(Struct, frozen=True, dict=True):
             **{f"*k*_{index}": markup for index, markup in self.scales.items()},
             "*k*_{{": f"*{self.scale_letter}*_{{{{",
             **{f"*a*^{{{{{u}}}}}": f"*a*^{{{{{s}}}}}" for u, s in self.components.items()},
+            "*o*": sign_markup(self.velocity_pole),
+            "*o*′": sign_markup(self.acceleration_pole),
             "a^c": f"a^{{{{{self.coriolis}}}}}" if self.coriolis != "c" else "a^c",
         }
 
 
-def scale_markup(sign: str) -> str:
-    """The markup of a scale factor."""
+def sign_markup(sign: str) -> str:
+    """The markup of a scale factor or a pole: a prime stands upright beside the letter."""
     letter, _, index = sign.partition("_")
+    name = f"*{letter.rstrip('′')}*{'′' * letter.count('′')}"
     if not index:
-        return f"*{letter}*"
-    return f"*{letter}*_{index}" if len(index) == 1 else f"*{letter}*_{{{index}}}"
+        return name
+    return f"{name}_{index}" if len(index) == 1 else f"{name}_{{{index}}}"
 
 
 USUAL = SchoolSigns()
 NAMES = tuple(each.name for each in fields(SchoolSigns))
 """The keys of signs, in the order in which they are listed."""
-TOKEN = re.compile(r"\*ε\*|\*k\*_(?:[LvanF]\b|\{\{)|\*a\*\^\{\{.\}\}|\ba\^c\b")
+TOKEN = re.compile(r"\*ε\*|\*o\*′?|\*k\*_(?:[LvanF]\b|\{\{)|\*a\*\^\{\{.\}\}|\ba\^c\b")
 """A usual sign in a sentence."""
 MEANINGS: Mapping[str, str] = MappingProxyType(
     {

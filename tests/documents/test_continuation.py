@@ -213,3 +213,22 @@ def test_a_plan_that_is_drawn_larger_stays_clear_of_all_else(language):
         assert not collisions(page.marks)
         said = " ".join(mark.markup for mark in page.marks if isinstance(mark, Text))
         assert words(language)("page.with_trials") in said
+
+
+def test_a_colon_stands_apart_in_french_and_close_in_english():
+    for language, colon in (("fr", " : "), ("en", ": ")):
+        spoken = words(language)
+        documents = drawn_sheets(drawings_from(TEXTS["chain of 6"], language), "key")
+        marks = [mark for each in documents for page in each.pages for mark in page.marks]
+        told = [mark.markup for mark in marks if isinstance(mark, Text)]
+        assert any(each.startswith(f"{spoken('page.data')}{colon}") for each in told)
+        (moved, *_) = (
+            mark.markup for mark in marks if isinstance(mark, Text) and mark.name == "moved"
+        )
+        assert moved.endswith(f"{colon}{spoken('page.moved')}")
+
+
+def test_a_wheel_of_the_frame_with_inner_teeth_is_an_internal_gear():
+    assert words("en")(
+        "page.ring_teeth", k="0", centre="O", z="z", teeth="72", module="2"
+    ).startswith("internal gear")

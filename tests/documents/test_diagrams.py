@@ -379,3 +379,51 @@ speed = 3
 [branches]
 3 = "forward"
 """
+
+
+EPICYCLIC = """
+graphkin = 1
+title = "Planetary gear"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+
+[frame]
+O = [0, 0]
+wheel = { centre = "O", teeth = 72, inside = true }
+
+[links.planet]
+P = [0,0]
+wheel = { centre = "P", teeth = 24 }
+rolls = [{ on = "sun", link = "arm" }, { on = 0 }]
+
+[links.sun]
+O = [0, 0]
+wheel = { centre = "O", teeth = 24 }
+
+[[drivers]]
+turn = "sun"
+angle = 20
+speed = 1400
+
+[ask]
+omega = ["arm", "planet"]
+"""
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_an_acceleration_of_zero_has_no_share_of_its_largest_value_and_no_numbers(language):
+    """The arm of a planetary gear at constant speed."""
+    spoken = words(language)
+    mechanism = Mechanism(read_text(EPICYCLIC, "epicyclic"))
+    pages = sheets_of(mechanism, language)["differentiation"]
+    assert len(pages) == 2
+    for page in pages:
+        texts = [mark for mark in page.marks if isinstance(mark, Text)]
+        assert not [mark.markup for mark in texts if ">100" in mark.markup]
+        assert spoken("diagrams.zero", v="ε") in [mark.markup for mark in texts]
+        assert spoken("diagrams.zero", v="ω") not in [mark.markup for mark in texts]
+        lines = [m for m in page.marks if isinstance(m, LineMark)]
+        ticks = {
+            n: [m for m in lines if m.name == f"axis {n}" and abs(m.x1 - m.x2) < 3] for n in "ωε"
+        }
+        assert len(ticks["ω"]) > 1
+        assert len(ticks["ε"]) == 1

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import pytest
+import shapely
 
 from graphkin.classroom.sheet_files import sheet_files
 from graphkin.construction.core.kind import constructions
@@ -17,11 +18,14 @@ from graphkin.documents.positions import positions_of
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import force_relations
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
-from graphkin.drawing.marks import LineMark, Page, Text, style_class
+from graphkin.drawing.field import paper_of
+from graphkin.drawing.marks import LineMark, Page, Text, reach, style_class
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.style import FORCES, INKS
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, load
-from graphkin.scene.read_scene import read_text
+from graphkin.scene.house import house_of
+from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER
@@ -99,6 +103,44 @@ def test_a_pencil_s_error_moves_both_balances_by_little(name):
     allowed = sum(error for _, error in read) * scale
     exact = sum(m for _, _, m, _, _ in lever.terms(drawing))
     assert abs(total - exact) <= allowed
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("name", ["shaper", "gas-engine"])
+def test_checks_of_forces_stay_within_a_sheet_of_a4(name, language):
+    house = house_of('graphkin = 1\n[pages]\npaper = "A4"\n', ".")
+    source = load(SCENES / f"{name}.toml").scene.source
+    found = hand_out(Mechanism(read_scene(source, house=house)), "key", language)
+    paper, said = paper_of("A4", "ISO"), []
+    for page in next(each.pages for each in found if each.kind == "force"):
+        feet = [mark for mark in texts(page) if mark.name in ("witness", "flattest")]
+        said += [plain(mark.markup) for mark in feet if mark.name == "witness"]
+        for mark in feet:
+            assert reach(mark)[2] <= paper.area[2] - 0.5
+            others = (shapely.box(*reach(m)) for m in texts(page) if m is not mark)
+            assert not any(shapely.box(*reach(mark)).intersects(other) for other in others)
+    told, told_lever = (
+        plain(words(language)(f"page.{key}_verified", difference="1"))
+        for key in ("forces", "lever")
+    )
+    assert told[:-1] in " ".join(said) and told_lever[:-1] in " ".join(said)
+
+
+@pytest.mark.parametrize(("name", "number"), [("class-three", "h_11"), ("tipper", "h_3")])
+def test_an_arm_ends_at_the_edge_of_its_field_and_a_note_says_so(name, number):
+    page, *_ = sheet_of(name, "key")
+    left, top, right, low = forces_of(name).fields.mechanism.rect
+    on_mechanism = [mark for mark in page.marks if reach(mark)[0] < right]
+    arms = [m for m in on_mechanism if style_class(m) in ("dimension", "ray")]
+    arms += [m for m in on_mechanism if m.name == number and style_class(m) == "arrowhead"]
+    assert any(mark.name == number for mark in arms)
+    for mark in arms:
+        box = reach(mark)
+        assert left <= box[0] and box[2] <= right and top + 6.5 <= box[1] and box[3] <= low
+    heads = [m for m in arms if m.name == number and style_class(m) == "arrowhead"]
+    assert len(heads) == 1
+    said = plain(words("en")("page.arm_beyond", name=symbol(number)))
+    assert said in [plain(mark.markup) for mark in texts(page)]
 
 
 def sign(value: float) -> int:

@@ -141,7 +141,7 @@ def test_a_plan_next_to_a_dead_point_has_its_scale_beside_its_number():
     (true,) = moved.along([place]).solution.points["D"].acceleration
     drawn = at["d′_11"] - at["o′_11"]
     assert drawn * number_in(text.markup, "= ") == pytest.approx(true, rel=1e-3)
-    assert any("beside its number" in each for each in said(page))
+    assert any("other scales beside it" in each for each in said(page))
     usual = number_in(next(each for each in said(page) if "mm)" in each), "*k*_a = ")
     assert number_in(text.markup, "= ") / usual == pytest.approx(5, rel=1e-3)
 
@@ -320,3 +320,11 @@ def test_the_table_of_the_most_positions_stays_above_the_foot_and_is_legible():
                 m for m in page.marks if isinstance(m, Text) and m.name in ("legend", "positions")
             ]
             assert max(m.corners()[2][1] for m in above) <= foot.corners()[0][1] + 0.3
+
+
+@pytest.mark.parametrize(("kind", "scaled"), [("velocity", False), ("acceleration", True)])
+def test_the_caption_of_plans_says_whether_all_have_one_scale(kind, scaled):
+    texts = [mark for mark in sheets("five-bar")[kind].marks if isinstance(mark, Text)]
+    (said,) = (mark.markup for mark in texts if "own pole" in mark.markup)
+    assert any(mark.name.startswith("scale_") for mark in texts) is scaled
+    assert ("all at one scale" in said) is not scaled

@@ -82,11 +82,26 @@ def test_no_usual_sign_is_left_on_paper(name: str, view: str) -> None:
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_no_usual_sign_is_left_in_a_sentence(language: str) -> None:
     sentences = words(language, MADE_UP).sentences
-    assert not {key: said for key, said in sentences.items() if re.search("[ντε]|a\\^c", said)}
+    assert not {
+        key: said for key, said in sentences.items() if re.search(r"[ντε]|a\^c|\*o\*", said)
+    }
     usual = words(language).sentences
     assert {k for k in usual if usual[k] != sentences[k]} == {
-        key for key, said in usual.items() if re.search(r"[ντε]|a\^c|\*k\*_", said)
+        key for key, said in usual.items() if re.search(r"[ντε]|a\^c|\*k\*_|\*o\*", said)
     }
+
+
+@pytest.mark.parametrize(
+    ("school", "velocities", "accelerations"),
+    [("german", "*P*_v", "*P*_a"), ("russian", "*p*", "*π*"), ("english", "*o*", "*o*′")],
+)
+def test_sentences_of_forces_name_the_poles_of_the_school(
+    school: str, velocities: str, accelerations: str
+) -> None:
+    sentences = words("de", SCHOOLS[school].signs).sentences
+    for key in ("force-inertia", "force-inertia-moved"):
+        assert re.search(rf"nach {re.escape(accelerations)}(?:,|$)", sentences[f"step.{key}"])
+    assert f"Momente um {velocities}:" in sentences["step.force-lever"]
 
 
 @pytest.mark.parametrize("name", ["pump", "shaper"])

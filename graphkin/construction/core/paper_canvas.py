@@ -105,6 +105,8 @@ EDGE = 3.0
 """Distance in mm from a field's edge at which longer lines end."""
 FOOT = 6.5
 """The same distance at the foot of a field, where the notes are."""
+CAPTION = 7.0
+"""Depth of the caption at the top of a field, in mm."""
 
 
 class Plot(Struct, frozen=True):
@@ -136,6 +138,15 @@ def inside(rect: Rect) -> Rect:
 def above_foot(rect: Rect) -> Rect:
     """A field without its edges and without its foot, where the notes are."""
     return rect[0] + EDGE, rect[1] + EDGE, rect[2] - EDGE, rect[3] - FOOT
+
+
+def in_field(start: XY, end: XY, rect: Rect) -> tuple[XY, XY] | None:
+    """The part of a segment in a field: whole, or as far as its edge, its caption and its foot."""
+    left, top, right, low = rect
+    if all(left <= x <= right and top + CAPTION <= y <= low for x, y in (start, end)):
+        return start, end
+    left, _, right, low = above_foot(rect)
+    return clipped(start, end, (left, top + CAPTION, right, low))
 
 
 def middle(tail: XY, tip: XY) -> XY:
@@ -538,7 +549,10 @@ class PaperCanvas(Struct, frozen=True):
     def joining(self, name: str, look: str, start: Any, end: Any) -> None:
         """Draw a thin line between two distinct points within the current stroke."""
         if self.size(end - start) > NEAR:
-            self.thin(self.plot.field(start), self.plot.field(end), look, name)
+            field = self.plot.field
+            part = in_field(field(start), field(end), field.rect)
+            if part is not None:
+                self.thin(*part, look, name)
 
     @stroke
     def stretch(self, name: str, look: str, at: Any, along: Any, low: Any, high: Any) -> None:
@@ -600,15 +614,26 @@ class PaperCanvas(Struct, frozen=True):
 
     @stroke
     def dimension(self, name: str, start: Any, end: Any) -> None:
-        """Draw a dimension line with a head at each end of it, and its symbol."""
-        tail, tip = self.plot.field(start), self.plot.field(end)
-        if hypot(tip[0] - tail[0], tip[1] - tail[1]) < 2 * HEAD:
-            self.thin(tail, tip, "dimension", name)
-        else:
-            self.plot.board.marks += arrow(tail, tip, "dimension", name, self.number)
-            self.plot.board.marks.append(head(tip, tail, "dimension", name, self.number))
+        """Draw a dimension line with a head at each end of it, and its symbol.
+
+        An end beyond the field has no head, and a note says so.
+        """
+        ends = self.plot.field(start), self.plot.field(end)
+        part = in_field(*ends, self.plot.field.rect)
+        if part != ends:
+            self.note(self.drawing.words("page.arm_beyond", name=symbol(name)))
+        if part is None:
+            return
+        tail, tip = part
+        self.thin(tail, tip, "dimension", name)
+        if hypot(tip[0] - tail[0], tip[1] - tail[1]) >= 2 * HEAD:
+            self.plot.board.marks += (
+                head(other, at, "dimension", name, self.number)
+                for at, other in ((tip, tail), (tail, tip))
+                if at in ends
+            )
         self.plot.board.labels.append(
-            Label(symbol(name), "dimension", (tail, tip), 2.5, name, self.number, spare=True)
+            Label(symbol(name), "dimension", part, 2.5, name, self.number, spare=True)
         )
 
     @stroke

@@ -279,18 +279,18 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
     def below(self, drawing: Drawing) -> str:
         """The arm of the balancing force in symbols, in m/s beside couples."""
         assert self.turned is not None
-        arm = f"*o*{symbol(drawing.trace.program.steps[self.turned].name)}"
-        return f"({arm}·*k*_v)" if self.in_metres(drawing) else arm
+        arm = drawing.in_signs("*o*") + drawing.lettered(self.turned)
+        return f"({arm}·{drawing.in_signs('*k*_v')})" if self.in_metres(drawing) else arm
 
     def sum(self, drawing: Drawing) -> str:
         """The sum of moments in symbols, positive as a whole."""
         some = list(self.terms(drawing))
         turned = sum(each[2] for each in some) < 0
-        metres = self.in_metres(drawing)
+        scale = drawing.in_signs("·*k*_v") if self.in_metres(drawing) else ""
         return signed(
             (
                 (moment > 0) is not turned,
-                (f"{symbol(name)}·{symbol(number)}" + ("·*k*_v" if metres and force else "")),
+                f"{symbol(name)}·{symbol(number)}{scale if force else ''}",
             )
             for name, number, moment, force, _ in some
         )
@@ -322,7 +322,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             omega, rate = symbol(f"ω_{self.link}"), figure(drawing, abs(values[self.omega]))
             put = f"({self.sum(drawing)})/{omega} = ({self.figures(drawing)})/{rate}"
             result, said = answer(drawing, abs(size)), sense(drawing.words, size)
-            left, about = symbol(self.moment_name), f"Σ*M*(*o*)/{omega}"
+            left, about = symbol(self.moment_name), drawing.in_signs(f"Σ*M*(*o*)/{omega}")
             yield Relation(left, about, put, result, "N·m", said, turns=True)
             return
         metres = self.in_metres(drawing)
@@ -331,10 +331,10 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         if metres:
             put = f"({along}·{figure(drawing, drawing.scales.k_lever / 1000)})"
         force = float(abs(values[self.force]))
-        arm = f"*o*{symbol(drawing.trace.program.steps[self.turned].name)}"
+        arm = drawing.in_signs("*o*") + drawing.lettered(self.turned)
         yield of_moments(
             (symbol(self.name), answer(drawing, force), "N"),
-            "*o*",
+            drawing.in_signs("*o*"),
             (self.sum(drawing), self.figures(drawing)),
             (self.below(drawing), put),
             by=arm,
