@@ -138,7 +138,7 @@ BENT, STIFF = 3.0, 1.0
 """Expected size of the simplest bending, in mm: of a sheet, and of one folded in four."""
 ROUNDS, NUDGE = 2, 1e-6
 """Gauss-Newton steps per fit, and the step of the finite differences."""
-UNEVEN, LESS = 0.12, 0.8
+UNEVEN, LESS = 0.16, 0.8
 """The residual in mm from which a sheet is also read as one that was folded in four.
 
 The folded sheet counts with less than LESS of the residual.

@@ -59,7 +59,7 @@ def test_the_class_ends_as_it_is_told(tmp_path: Path, monkeypatch: Any) -> None:
     row = read_marks(Path("report/marks.csv").read_bytes())["0042"]
     wrong = {head: cell for head, cell in row.items() if head.endswith(" why") and cell != "right"}
     assert set(wrong) == {"a_B_mm why"}
-    reason = "98 mm on her sheet: two digits are swapped in the table"
+    reason = "74 mm on her sheet: two digits are swapped in the table"
     assert reason in wrong["a_B_mm why"]
     assert row["points"] == row["of"] == "14.5"
     assert reason in Path("report/feedback/0042.html").read_text(encoding="utf-8")

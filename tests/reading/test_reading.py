@@ -1147,8 +1147,7 @@ def test_the_frame_is_followed_once_for_all_sheets_and_each_is_told(
         found = search.registered(page)
         assert found is not None
         assert not found.refused
-        places = {search.square_of(each).tobytes() for each in pages.values()}
-        assert len(search.frames) == len(places)
+        assert len(search.frames) == 1
         off = found.map(grid_places()) - (grid_places() * 5 - 0.5)
         assert np.hypot(*off.T).max() < 1  # pixels, of five a mm
 

@@ -69,8 +69,8 @@ def force_lines(found: Record) -> list[str]:
             lines += ["", f"balance  moment on link {link}: {each['moment']:.6g} N·m"]
         else:
             x, y = each["force"]
-            size = f"{abs(complex(x, y)):.6g} N along the guide"
-            lines += ["", f"balance  force on link {link}: ({x:.6g}, {y:.6g}) N, {size}"]
+            along = f"{abs(complex(x, y)):.6g} N along the guide"
+            lines += ["", f"balance  force on link {link}: ({x:.6g}, {y:.6g}) N, {along}"]
     return [*lines, "", f"forces   {force_verdict_words(found['force_witness'])}"]
 
 
