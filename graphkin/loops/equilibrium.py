@@ -33,7 +33,7 @@ PRESSURE = math.radians(20)
 """The pressure angle of teeth: ISO 53."""
 LOOSE = 1e-6
 """The share of an unknown in what no equation determines, above which it is not determined."""
-LITTLE = 1e-3
+LITTLE = 1e-2
 """Share of the largest possible power below which the work of loads counts as none."""
 HELD = 1e-9
 """Difference, as a share of the largest force, up to which two routes agree."""

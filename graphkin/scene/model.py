@@ -712,7 +712,9 @@ class Scene(Struct, frozen=True, dict=True):
         return frozenset(
             name
             for name in self.keepers
-            if name not in driven and axles[frozenset(self.links[name].points)] < 2
+            if name in self.links  # a part of a mechanism may be without it
+            and name not in driven
+            and axles[frozenset(self.links[name].points)] < 2
         )
 
     def axles_of(self, link: Link) -> Iterator[frozenset[str]]:

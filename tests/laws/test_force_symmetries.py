@@ -52,7 +52,8 @@ class Solved:
         assert self.pairs.keys() == other.pairs.keys()
         for key, force in other.pairs.items():
             assert abs(self.pairs[key] - change(force)) <= CLOSE * self.largest, key
-        most = max(map(abs, self.moments.values()), default=0.0)
+        arm = 1.0  # metres, about the size of the mechanisms
+        most = max(*map(abs, self.moments.values()), arm * self.largest, 0.0)
         for link, value in other.moments.items():
             assert abs(self.moments[link] - moment * value) <= CLOSE * most, link
 

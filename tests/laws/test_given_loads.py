@@ -118,7 +118,7 @@ def test_a_spring_between_two_moving_links_has_opposite_forces():
     ("load", "place", "said"),
     [
         ("[[loads]]\nlink = 1\nmoment = [[0, 1]]", "loads[0].moment", "two points"),
-        ("[[loads]]\nlink = 1\nmoment = [[0, 1], [0, 2]]", "loads[0].moment", "each above"),
+        ("[[loads]]\nlink = 1\nmoment = [[0, 1], [0, 2]]", "loads[0].moment", "each greater"),
         ("[[loads]]\nlink = 1\nmoment = [[0, 1], [9, 2]]\nover = 2", "loads[0].over", "a driver"),
         ('[[loads]]\nat = "B"\nforce = { size = 1, motion = "up" }', "loads[0].force.motion", "al"),
         ('[[springs]]\nbetween = "B"\nstiffness = 1\nfree = 1', "springs[0].between", "two points"),
