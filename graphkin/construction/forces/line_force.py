@@ -23,9 +23,9 @@ from graphkin.construction.forces.moments import (
     SEEN,
     Moments,
     arm,
+    line_arm,
     moment_sum,
     of_moments,
-    right_angle,
 )
 from graphkin.construction.forces.polygon import SideDirection, links_words
 from graphkin.drawing.symbol_markup import symbol
@@ -76,12 +76,7 @@ class LineForce(Construction, frozen=True, kw_only=True):
         about, through, end = map(canvas.value, (self.moments.about, self.through, self.foot))
         if canvas.size(end - about) <= SEEN or not canvas.holds(about):
             return
-        canvas.leg(self.name, "ray", through, end)
-        canvas.dimension(self.number, about, end)
-        along = end - through
-        if canvas.size(along) <= SEEN:
-            along = 1j * (about - end)
-        right_angle(canvas, end, about, along)
+        line_arm(canvas, (self.name, self.number), about, through, end)
 
     def symbols(self) -> Mapping[str, str]:
         """The point about which the moments are taken."""

@@ -96,6 +96,18 @@ def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
         canvas.leg("right-angle", "square-mark", corner + first + second, corner + second)
 
 
+def line_arm(canvas: Canvas, names: tuple[str, str], about: Any, through: Any, foot: Any) -> None:
+    """Draw a line of action from a point to the foot on it, and the arm as a dimension.
+
+    ``names`` are those of the force and of its arm.
+    """
+    force, arm = names
+    canvas.leg(force, "ray", through, foot)
+    canvas.dimension(arm, about, foot)
+    along = foot - through
+    right_angle(canvas, foot, about, along if canvas.size(along) > SEEN else 1j * (about - foot))
+
+
 @action("left-couple")
 def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
     """The couple of a guide without a reaction that balances the moments about a point."""

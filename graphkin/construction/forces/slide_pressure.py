@@ -18,9 +18,9 @@ from graphkin.construction.forces.moments import (
     SEEN,
     Moments,
     arm,
+    line_arm,
     moment_sum,
     of_moments,
-    right_angle,
 )
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
@@ -74,11 +74,7 @@ class SlidePressure(Construction, frozen=True, kw_only=True):
         far, near, foot = map(canvas.value, (self.own.about, self.others.about, self.foot))
         if canvas.size(foot - far) <= SEEN:
             return
-        canvas.leg(self.name, "ray", near, foot)
-        canvas.dimension(self.number, far, foot)
-        right_angle(
-            canvas, foot, far, foot - near if canvas.size(foot - near) > SEEN else 1j * (far - foot)
-        )
+        line_arm(canvas, (self.name, self.number), far, near, foot)
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The moment equation, and the size of the force."""
