@@ -135,6 +135,7 @@ class SceneWriter:
         self.at = {own: joint.at for own, joint in found.joints.items()}
         self.drivers = [each for each in found.inputs if each.body in self.bodies]
         self.loads = [each for each in found.loads if each.body in self.bodies]
+        self.masses = {each.body: each for each in found.masses if each.body in self.bodies}
         if not self.drivers:
             self.drivers = [self.some_driver(fixed)]
 
@@ -216,12 +217,13 @@ class SceneWriter:
             *(head or []),
             f'title = "Mechanism from {self.found.program}"',
             f'units = {{ length = "{self.found.unit}", angle = "deg", speed = "rev/min" }}',
+            *(["gravity = true"] if self.found.gravity else []),
             "",
             "[frame]",
             *(f"{self.points[own]} = {pair(self.at[own])}" for own in self.fixed),
         ]
         for own in self.bodies:
-            lines += ["", f"[links.{self.numbers[own]}]", *self.link(own)]
+            lines += ["", f"[links.{self.numbers[own]}]", *self.link(own), *self.mass(own)]
         for driver in self.drivers:
             lines += ["", "[[drivers]]", *self.driver(driver)]
         for load in self.loads:
@@ -317,6 +319,13 @@ class SceneWriter:
         """How far to the left of its guide a joint is drawn."""
         assert guide.along is not None
         return ((self.at[guide.first] - self.at[guide.along[0]]) / self.way(guide)).imag
+
+    def mass(self, own: str) -> Iterator[str]:
+        """The keys of a link's mass."""
+        if held := self.masses.get(own):
+            yield f"mass = {held.mass:.{DIGITS}g}"
+            yield f'centre = "{self.points[held.centre]}"'
+            yield f"inertia = {held.inertia:.{DIGITS}g}"
 
     def load(self, load: DrawnLoad) -> Iterator[str]:
         """The keys of a load."""
