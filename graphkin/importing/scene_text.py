@@ -28,6 +28,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
 from graphkin.text.errors import (
@@ -137,7 +138,7 @@ class SceneWriter:
         self.loads = [each for each in found.loads if each.body in self.bodies]
         self.masses = {each.body: each for each in found.masses if each.body in self.bodies}
         if not self.drivers:
-            self.drivers = [self.some_driver(fixed)]
+            self.drivers = self.some_drivers(fixed)
 
     def leave_out_loose(self, fixed: set[str]) -> None:
         """Leave out the links that hang together with nothing fixed, with a note for each."""
@@ -166,19 +167,24 @@ class SceneWriter:
         joints = sorted(body.joints, key=lambda j: (j not in first, j not in fixed))
         return DrawnLink(body.name, tuple(joints))
 
-    def some_driver(self, fixed: set[str]) -> DrawnInput:
-        """A driver where the file has none."""
-        pivoted = ((own, j) for own, body in self.bodies.items() for j in body.joints if j in fixed)
-        own, about = next(pivoted, (next(iter(self.guided), ""), ""))
-        if own not in self.bodies:
+    def some_drivers(self, fixed: set[str]) -> list[DrawnInput]:
+        """As many drivers as freedoms, where the file has none: pivoted links before blocks."""
+        pins = {own: [j for j in body.joints if j in fixed] for own, body in self.bodies.items()}
+        free = [DrawnInput(own, 1.0, held[0]) for own, held in pins.items() if held]
+        free += [DrawnInput(own, 1.0) for own in pins if own in self.guided and not pins[own]]
+        if not free:
             raise refused(message("nothing in it is driven"))
-        self.notes.append(
-            message(
-                "nothing is driven in the file; link {name} is, at speed 1",
-                name=self.numbers[own],
+        self.drivers = free[:1]
+        freedoms = count(read_text(self.text({}), NAME)).mobility
+        chosen = free[: max(1, freedoms)]
+        for driver in chosen:
+            self.notes.append(
+                message(
+                    "nothing is driven in the file; link {name} is, at speed 1",
+                    name=self.numbers[driver.body],
+                )
             )
-        )
-        return DrawnInput(own, 1.0, about)
+        return chosen
 
     def names(self) -> Iterator[tuple[str, str]]:
         """The name in the scene and in the file of each link, then of each joint."""

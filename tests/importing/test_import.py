@@ -481,6 +481,21 @@ def test_a_block_of_the_old_pmks_slides_on_its_guide():
         imported(text.replace("ground,P", "ground,RP"))
 
 
+def test_an_expression_is_read_from_the_command_line_and_driven_by_its_freedoms(tmp_path):
+    """Two cranks on one pin and a dyad between them: a five-bar, of two freedoms."""
+    joints = (("0, 0", "ground, a, b"), ("-30, 40", "a, c"), ("50, 30", "b, d"), ("15, 90", "c, d"))
+    said = ", ".join(f"J[R, P[{place}], L[{links}]]" for place, links in joints)
+    file = tmp_path / "arm.toml"
+    result = CliRunner().invoke(app, ["import", f"M[{said}]", "-o", str(file)])
+    assert result.exit_code == 0, result.output
+    mechanism = Mechanism(read_text(file.read_text(), "arm"))
+    assert [driver.link for driver in mechanism.scene.drivers] == ["1", "2"]
+    at = places(mechanism, 1e-3).values()
+    assert sorted(map(complex, at), key=abs) == pytest.approx(
+        [0, 50j - 10j - 30, 50 + 30j, 15 + 90j]
+    )
+
+
 def test_what_has_no_counterpart_is_named_in_the_scene():
     lost = changed(LINKS["loaded"], ("2F1,CD,", "2F1,XY,"))
     for text, words in ((lost, "force F1 is left out"), (LINKS["trammel"], "nothing is driven")):
