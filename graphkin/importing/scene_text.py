@@ -250,6 +250,8 @@ class SceneWriter:
         axis = self.axis(own)
         for joint in joints:
             place = (self.at[joint] - self.at[joints[0]]) / axis
+            if abs(place.imag) < self.found.rounding:
+                place = complex(place.real, 0.0)
             yield f"{self.points[joint]} = {pair(place)}"
         yield from self.wheels(own)
         if guide is not None:
