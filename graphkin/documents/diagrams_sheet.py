@@ -67,7 +67,7 @@ OVER, GAP = 6.0, 7.0
 """The room above the first diagram, and between two, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
-LETTERS, SMALL = 2.5, 1.8
+LETTERS, SMALL = 2.5, 2.5
 """Heights of letters in mm."""
 POLES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0)
 """Possible distances of a pole from its axis, in mm."""
@@ -156,7 +156,7 @@ def frame_of(
     for i, u in enumerate(motion.at):
         x, _ = axes.on_page(axes.place(float(u), 0.0))
         yield LineMark(x, top, x, low, "register", f"position {i}")
-        yield Text(x + 0.7, axes.zero + 2.6, names[i], "caption", SMALL, name=f"position {i}")
+        yield Text(x + 0.7, axes.zero + 3.2, names[i], "caption", SMALL, name=f"position {i}")
     if not is_zero:
         yield from numbers_along(words, axes, name, factor, TICKS)
 
@@ -618,11 +618,11 @@ def sentence_lines(found: PositionSet, said: Sequence[str]) -> Iterator[Mark]:
     left, y, right, _ = found.shown.alone.paper.leaf.notes
     y += 4.2
     for number, sentence in enumerate(said, 1):
-        for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, 2.2)):
+        for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, LETTERS)):
             if not i:
-                yield Text(left, y, f"{number}.", "caption", 2.2, name="sentence")
-            yield Text(left + 5, y, line, "caption", 2.2, name="sentence")
-            y += 3.75
+                yield Text(left, y, f"{number}.", "caption", LETTERS, name="sentence")
+            yield Text(left + 5, y, line, "caption", LETTERS, name="sentence")
+            y += 4.3
 
 
 # --- scales and errors ----------------------------------------------------------------------------

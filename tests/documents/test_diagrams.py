@@ -327,6 +327,13 @@ def test_diagrams_stay_on_the_page_in_every_language(name: str, language: str):
         assert page.lang == language
 
 
+def test_a_point_that_keeps_its_line_has_no_hodograph():
+    """Only the pump's piston D is asked: its velocity is a line; A's keeps its length."""
+    page, _ = sheets_of(load("pump"))["hodographs"]
+    named = {mark.name for mark in page.marks if mark.name.startswith("hodograph ")}
+    assert named == {"hodograph B", "hodograph C"}
+
+
 def test_hodographs_have_the_velocities_of_the_positions():
     page, _ = sheets("crank-rocker")["hodographs"]
     texts = " ".join(m.markup for m in page.marks if isinstance(m, Text))
