@@ -795,23 +795,6 @@ def of_follower(motion: FollowerMotion, at: Reals, fine: Reals) -> list[Asked]:
     return made
 
 
-def of_forces(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
-    """The asked reactions, by their sizes, and the balance; these sheets have no plan of them."""
-    along = found.cycle.along(fine)
-    if along.forces is None:
-        return []
-    rows, nothing = np.searchsorted(fine, along.at), np.full(len(at), np.nan)
-    made = []
-    for (what, name), values in along.forces.values.items():
-        quantity = BY_TARGET[what]
-        letter = found.shown.alone.symbol(name)
-        whole = np.full(len(fine), np.nan)
-        whole[rows] = np.abs(values) if quantity.sort == "vector" else values
-        text = f"|{letter}|" if quantity.sort == "vector" else letter
-        made.append(Asked(text, quantity.unit, name, "profile", nothing, whole))
-    return made
-
-
 def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     """What the scene asks for at the positions and between them."""
     measures = [*asked_measures(found.cycle)]
@@ -868,9 +851,8 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     at = found.planned_places
     fine = np.linspace(at[0], at[-1], FINE + 1)
     every = asked_courses(found, at, fine)
-    every += of_forces(found, at, fine)
-    every += of_follower(motion, at, fine) if motion else []
     every += force_courses(found, at, fine)
+    every += of_follower(motion, at, fine) if motion else []
     every = [each for each in every if np.isfinite(each.fine).any()]
     per = columns_on(found) * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]
