@@ -68,9 +68,10 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
     The folder is called NAME and holds a scene and the rule of its variants, for you to change.
     Both files have a comment at each key, and graphkin check accepts them unchanged.
 
-    With --from, the scene is a copy of SCENE, a path or the name of a shipped lab. At least one of
-    its parameters needs min and max. The rule draws from the ranges in which every variant is fair
-    and lists every field and every known mistake of this scene.
+    With --from, the scene is a copy of SCENE, a path or the name of a shipped lab. If none of its
+    parameters has min and max, the position of its driver becomes one. The rule draws from the
+    ranges in which every variant is fair and lists every field and every known mistake of this
+    scene.
 
     \b
     Example:
@@ -85,12 +86,15 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
         tell(str(path) for path in made(name, folder, force=force))
         return
     from graphkin.scene import scene_files
+    from graphkin.text.tables import labelled
 
     path = scene_files.find(scene)
     current().meta[READING] = path
     with working() as step:
         lab = lab_from(Path(path), name, folder, force=force, say=step)
     tell(map(str, lab.files))
+    if lab.added:
+        tell(["", *labelled("added", [f"{lab.added}: the position of the driver varies"])])
     if lab.proposed is None:
         complain(f"{NO_RANGES}: graphkin ranges {folder / name} lists the limits that are broken")
         leave(FAILED)

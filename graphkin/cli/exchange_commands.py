@@ -54,10 +54,10 @@ def import_scene(
     """Write a mechanism of another program as a scene.
 
     FILE is a .pmks or .csv file of PMKS+, a .linkage2 file of Linkage, a .json file of pylinkage,
-    a .pyslvs file or an expression M[J[…], …] of Pyslvs, or a drawing. LINK is an address by which
-    PMKS+ or the older PMKS shares a mechanism, in quotes; it is read, never opened. The scene has
-    the closure that is nearest to the drawing. What a scene cannot hold is named on standard error,
-    and in comments at the head of the scene.
+    a .pyslvs file of Pyslvs, or a drawing. LINK is an address by which PMKS+ or the older PMKS
+    shares a mechanism, in quotes; it is read, never opened. An expression M[J[…], …] of Pyslvs is
+    given in quotes or in a file. The scene has the closure that is nearest to the drawing. What a
+    scene cannot hold is named on standard error, and in comments at the head of the scene.
 
     A drawing is a .ggb file of GeoGebra or a DXF file (needs the extra [cad]). Its segments become
     bars, to scale. It does not say what is fixed: name the fixed points with --fixed. Without
@@ -70,13 +70,14 @@ def import_scene(
       graphkin import engine.ggb --fixed O --drive O-A --slide B=0
     """
     from graphkin.importing.figure import Completion
-    from graphkin.importing.formats import LINK, content, imported
+    from graphkin.importing.formats import EXPRESSION, LINK, content, imported
     from graphkin.importing.scene_text import scene_text
     from graphkin.writers.files import write_apart
 
     tracing = Completion(words(fixed, ","), words(drive, "-"), guides(slides), unit or "")
     text = content(given)
-    current().meta[READING] = given if LINK.match(given) is None else "the link"
+    link, expression = LINK.match(given), EXPRESSION.match(given)
+    current().meta[READING] = "the link" if link else "the expression" if expression else given
     found = scene_text(imported(text, tracing))
     if output is None:
         tell(found.text.splitlines())

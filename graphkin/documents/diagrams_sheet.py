@@ -67,7 +67,7 @@ OVER, GAP = 6.0, 7.0
 """The room above the first diagram, and between two, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
-LETTERS, SMALL = 2.5, 1.8
+LETTERS, SMALL = 2.5, 2.5
 """Heights of letters in mm."""
 POLES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0)
 """Possible distances of a pole from its axis, in mm."""
@@ -156,7 +156,7 @@ def frame_of(
     for i, u in enumerate(motion.at):
         x, _ = axes.on_page(axes.place(float(u), 0.0))
         yield LineMark(x, top, x, low, "register", f"position {i}")
-        yield Text(x + 0.7, axes.zero + 2.6, names[i], "caption", SMALL, name=f"position {i}")
+        yield Text(x + 0.7, axes.zero + 3.2, names[i], "caption", SMALL, name=f"position {i}")
     if not is_zero:
         yield from numbers_along(words, axes, name, factor, TICKS)
 
@@ -618,11 +618,11 @@ def sentence_lines(found: PositionSet, said: Sequence[str]) -> Iterator[Mark]:
     left, y, right, _ = found.shown.alone.paper.leaf.notes
     y += 4.2
     for number, sentence in enumerate(said, 1):
-        for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, 2.2)):
+        for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, LETTERS)):
             if not i:
-                yield Text(left, y, f"{number}.", "caption", 2.2, name="sentence")
-            yield Text(left + 5, y, line, "caption", 2.2, name="sentence")
-            y += 3.75
+                yield Text(left, y, f"{number}.", "caption", LETTERS, name="sentence")
+            yield Text(left + 5, y, line, "caption", LETTERS, name="sentence")
+            y += 4.3
 
 
 # --- scales and errors ----------------------------------------------------------------------------
@@ -795,23 +795,6 @@ def of_follower(motion: FollowerMotion, at: Reals, fine: Reals) -> list[Asked]:
     return made
 
 
-def of_forces(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
-    """The asked reactions, by their sizes, and the balance; these sheets have no plan of them."""
-    along = found.cycle.along(fine)
-    if along.forces is None:
-        return []
-    rows, nothing = np.searchsorted(fine, along.at), np.full(len(at), np.nan)
-    made = []
-    for (what, name), values in along.forces.values.items():
-        quantity = BY_TARGET[what]
-        letter = found.shown.alone.symbol(name)
-        whole = np.full(len(fine), np.nan)
-        whole[rows] = np.abs(values) if quantity.sort == "vector" else values
-        text = f"|{letter}|" if quantity.sort == "vector" else letter
-        made.append(Asked(text, quantity.unit, name, "profile", nothing, whole))
-    return made
-
-
 def asked_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
     """What the scene asks for at the positions and between them."""
     measures = [*asked_measures(found.cycle)]
@@ -868,9 +851,8 @@ def course_pages(found: PositionSet, motion: FollowerMotion | None) -> list[Call
     at = found.planned_places
     fine = np.linspace(at[0], at[-1], FINE + 1)
     every = asked_courses(found, at, fine)
-    every += of_forces(found, at, fine)
-    every += of_follower(motion, at, fine) if motion else []
     every += force_courses(found, at, fine)
+    every += of_follower(motion, at, fine) if motion else []
     every = [each for each in every if np.isfinite(each.fine).any()]
     per = columns_on(found) * ROWS
     parts = [every[i : i + per] for i in range(0, len(every), per)]

@@ -8,6 +8,7 @@ from math import ceil
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
+from numpy.typing import NDArray
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import centre
@@ -392,18 +393,36 @@ def way(start: tuple[float, float], end: tuple[float, float]) -> tuple[float, fl
 
 
 def hodographs(found: PositionSet, kind: str) -> dict[str, tuple[complex, ...]]:
-    """The hodographs of the asked points: the tips of their vectors from one pole."""
+    """The hodographs of the asked points: the tips of their vectors from one pole.
+
+    A vector that keeps its line has none. Where all asked ones do, the other points of the plan are
+    drawn, without those whose vectors keep their length.
+    """
     asked = getattr(found.cycle.scene.ask, kind)
     known = found.cycle.path.ranges[0][0].course.program.targets
-    targets = [(kind, name) for name in asked if (kind, name) in known]
-    if not targets:
-        return {}
+    targets = [(own, name) for own, name in known if own == kind]
     at = [each.at for each in found.planned(kind)]
     low, high = found.cycle.ranges[0] if is_whole(found.cycle) else (min(at), max(at))
     some = np.linspace(low, high, 2 * SAMPLES + 1)
     columns = columns_at(found.cycle.sweep, found.cycle.path, some, targets).columns
-    rows = {name: columns[kind, name] for _, name in targets}
-    return {name: tuple(complex(z) for z in r[np.isfinite(r)]) for name, r in rows.items()}
+    rows = {name: row[np.isfinite(row)] for (_, name), row in columns.items()}
+    turning = {name: row for name, row in rows.items() if leaves_its_line(row)}
+    chosen = [name for name in asked if name in turning] or [
+        name for name, row in turning.items() if np.ptp(np.abs(row)) > SEEN * np.max(np.abs(row))
+    ]
+    return {name: tuple(map(complex, turning[name])) for name in chosen}
+
+
+SEEN = 0.01
+"""The share of the largest vector that is seen on a hodograph."""
+
+
+def leaves_its_line(tips: NDArray[np.complex128]) -> bool:
+    """Whether vectors from one pole point along more than one line."""
+    if not tips.size:
+        return False
+    largest = tips[np.argmax(np.abs(tips))]
+    return bool(np.max(np.abs((tips * largest.conjugate()).imag)) > SEEN * abs(largest) ** 2)
 
 
 # --- the hodograph of each asked point ------------------------------------------------------------

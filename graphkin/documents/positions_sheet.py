@@ -158,7 +158,7 @@ def proof(found: PositionSet) -> Iterator[Mark]:
     words = found.shown.alone.words
     text = words("page.verified", difference=words.significant(found.difference, 2))
     left, _, _, low = found.shown.alone.paper.leaf.notes
-    yield Text(left - 2, low - 1.2, text, "caption", 1.8, name="witness")
+    yield Text(left - 2, low - 1.2, text, "caption", 2.5, name="witness")
 
 
 # --- scale and field ------------------------------------------------------------------------------

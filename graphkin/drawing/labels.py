@@ -342,10 +342,14 @@ BETWEEN = "; "
 
 
 class FootNote(Struct, frozen=True):
-    """A note at the foot of a field, ``of`` a symbol or of a key number, as markup."""
+    """A note at the foot of a field, ``of`` a symbol or of a key number, as markup.
+
+    Notes with one ``lead`` are listed together after it.
+    """
 
     markup: str
     of: str = ""
+    lead: str = ""
 
 
 class FieldContent(Struct):
@@ -589,6 +593,7 @@ class NoteLine(NamedTuple):
 
 def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
     """Notes in lines of a width in mm, broken between notes if possible, else between words."""
+    notes = listed_notes(notes)
     lines = flowed_pieces([note.markup for note in notes], BETWEEN, width, 2.5)
     if max((extent(line, 2.5)[0] for line, _ in lines), default=0.0) <= width:
         owners, pieces = [*range(len(notes))], [note.markup for note in notes]
@@ -598,6 +603,15 @@ def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
         owners, pieces = [i for i, _ in all_words], [word for _, word in all_words]
         lines = flowed_pieces(pieces, " ", width, 2.5)
     return [NoteLine(line, tuple(parts(notes, owners, pieces, held))) for line, held in lines]
+
+
+def listed_notes(notes: Sequence[FootNote]) -> list[FootNote]:
+    """The notes in order, those with one lead last and together, the first of them with it."""
+    found = [note for note in notes if not note.lead]
+    for lead in dict.fromkeys(note.lead for note in notes if note.lead):
+        first, *others = (note for note in notes if note.lead == lead)
+        found += [replace(first, markup=f"{lead} {first.markup}"), *others]
+    return found
 
 
 def parts(

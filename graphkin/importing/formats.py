@@ -10,6 +10,7 @@ from graphkin.scene.file_limits import LARGEST, file_bytes
 from graphkin.text.errors import message
 
 LINK = re.compile(r"https?://[^?\s]*\?", re.IGNORECASE)
+EXPRESSION = re.compile(r"(?=\s*M\[)")
 MECH = re.compile(r"(^|&)mech=")
 DXF = re.compile(r"\s*(0\s*\n\s*SECTION|999\s*\n)|AutoCAD Binary DXF")
 ARCHIVE = b"PK\x03\x04"
@@ -24,9 +25,10 @@ PMKS = re.compile(r"[\w-]{2}\.[\w,-]*\.[\w,-]*\.[\w-]*\.")
 def content(given: str) -> str:
     """The text of a file, or of a link after its question mark. A link is never opened.
 
-    Raises SceneError where there is no such file, or it is too large.
+    An expression of Pyslvs is its own text. Raises SceneError where there is no such file, or it is
+    too large.
     """
-    if found := LINK.match(given):
+    if found := LINK.match(given) or EXPRESSION.match(given):
         text = given[found.end() :]
         if len(text) <= LARGEST:
             return text

@@ -14,7 +14,7 @@ slot (RP) does not say which of its links has the slot, and a gear (G) has no si
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from itertools import takewhile
 from math import pi, radians
 from urllib.parse import parse_qs
@@ -22,6 +22,7 @@ from urllib.parse import parse_qs
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.construction.core.drawn_scene import METRES
 from graphkin.documents.pmks_file import (
     ALPHABET,
     EXACT,
@@ -38,6 +39,7 @@ from graphkin.importing.record import (
     DrawnJoint,
     DrawnLink,
     DrawnLoad,
+    DrawnMass,
     Imported,
     damaged,
     few,
@@ -53,10 +55,18 @@ OLD_UNITS = {"cm": "cm", "m": "m", "in": "in", "inch": "in"}
 USUAL = "cm"
 UNITS_OF_FORCE = {"0": 4.4482216152605, "1": 1.0}
 """Newtons in one unit of force: pounds, newtons."""
+POUND = 0.45359237
+UNITS_OF_MASS = {"in": (POUND, POUND * 0.0254**2), "cm": (1e-3, 1e-4), "m": (1.0, 1.0)}
+"""Kilograms and kg·m² in one unit of mass and of moment of inertia, by the unit of length: lb and
+lb·in²; g, but kg·cm²; kg and kg·m² (the examples of github.com/PMKS-Web/PMKSWeb)."""
+UNTOUCHED = 1.0
+"""The mass of a link that nobody has changed."""
 LOCAL, OUTWARD = 1, 2
 """Flags of a force: it turns with its link; its arrow points away from the link."""
-CLOCKWISE = 1
+CLOCKWISE, GRAVITY = 1, 2
 WELDED = 8
+CLOSE = 1.5 / THOUSANDTH
+"""The distance under which two joints are in one place."""
 DIGITS = 12
 """The most digits of a number."""
 NUMBER_OF_OLD_FIELDS = 8
@@ -89,11 +99,15 @@ def new_text(text: str) -> Imported:
     few(len(lines))
     found = dict(map(new_joint, lines))
     bodies: dict[str, DrawnLink] = {}
+    weights: dict[str, Weight] = {}
     parts_of_links: dict[str, DrawnLink] = {}
     welded: set[str] = set()
     for line in links:
         own, name, *others = line[2:].split(",")
         held = others[5:]
+        if line[0] == "Y":
+            mass, inertia = (whole(text) / THOUSANDTH for text in others[:2])
+            weights[own] = Weight(mass, inertia, complex(*map(decimal, others[2:4])))
         end = held.index("")
         (bodies if line[0] == "Y" else parts_of_links)[own] = DrawnLink(name, tuple(held[:end]))
         welded |= {*held[end + 1 :]} if line[0] == "Y" else set()
@@ -107,11 +121,68 @@ def new_text(text: str) -> Imported:
         for own, part in parts_of_links.items()
         if own not in welded
     ]
-    sense = -1 if ALPHABET.index(flags[-1]) & CLOCKWISE else 1
+    settings = ALPHABET.index(flags[-1])
     unit = unit_of(units[:1], UNITS, notes)
-    whole_links = one_at_welds(found, bodies)
-    mechanism = gathered(found, whole_links, unit, sense * rpm(speeds), notes)
-    return replace(mechanism, loads=tuple(load for load in loads if load.body in whole_links))
+    holders = one_at_welds(found, bodies)
+    masses = tuple(place_masses(weights, holders, found, bodies, unit))
+    speed = rpm(speeds) * (-1 if settings & CLOCKWISE else 1)
+    mechanism = gathered(found, bodies, unit, speed, notes)
+    return replace(
+        mechanism,
+        loads=tuple(replace(load, body=holders[load.body]) for load in loads),
+        masses=masses,
+        gravity=bool(masses and settings & GRAVITY),
+    )
+
+
+class Weight(Struct, frozen=True):
+    """The mass of a link as the text has it: mass, moment of inertia, centre."""
+
+    mass: float
+    inertia: float
+    centre: complex
+
+
+def place_masses(
+    weights: Mapping[str, Weight],
+    holders: Mapping[str, str],
+    found: dict[str, PmksJoint],
+    bodies: dict[str, DrawnLink],
+    unit: str,
+) -> Iterator[DrawnMass]:
+    """The masses of the links, where somebody has changed one.
+
+    Welded links have one mass, at their common centre (Steiner's theorem).
+    """
+    if all(weight.mass == UNTOUCHED for weight in weights.values()):
+        return
+    kilograms, inertia_unit = UNITS_OF_MASS[unit]
+    for body in bodies:
+        held = [weight for own, weight in weights.items() if holders[own] == body]
+        if mass := kilograms * sum(weight.mass for weight in held):
+            centre = sum(kilograms * w.mass * w.centre for w in held) / mass
+            own_inertia = inertia_unit * sum(weight.inertia for weight in held)
+            moved = sum(kilograms * w.mass * abs(w.centre - centre) ** 2 for w in held)
+            joint = joint_at(found, bodies, body, centre, "S")
+            yield DrawnMass(body, joint, mass, own_inertia + moved * METRES[unit] ** 2)
+
+
+def joint_at(
+    found: dict[str, PmksJoint],
+    bodies: dict[str, DrawnLink],
+    own: str,
+    at: complex,
+    name: str,
+) -> str:
+    """The joint of a link at a place: its own, or a new one."""
+    here = (joint for joint in bodies[own].joints if joint in found)
+    near = next((joint for joint in here if abs(found[joint].joint.at - at) < CLOSE), "")
+    if near:
+        return near
+    joint = f"{name} of {own}"
+    found[joint] = PmksJoint(DrawnJoint(name, at), driven=False, prismatic=False, angle=0.0)
+    bodies[own] = DrawnLink(bodies[own].name, (*bodies[own].joints, joint))
+    return joint
 
 
 def add_load(
@@ -134,12 +205,7 @@ def add_load(
         return None
     if flags & LOCAL:
         notes.append(message("force {name} keeps its direction, as now", name=named(name)))
-    here = (joint for joint in bodies[own].joints if joint in found)
-    joint = next((j for j in here if abs(found[j].joint.at - at) < 1.5 / THOUSANDTH), "")
-    if not joint:
-        joint = f"force {own} {name}"
-        found[joint] = PmksJoint(DrawnJoint(name, at), driven=False, prismatic=False, angle=0.0)
-        bodies[own] = DrawnLink(bodies[own].name, (*bodies[own].joints, joint))
+    joint = joint_at(found, bodies, own, at, name)
     sense = 1 if flags & OUTWARD else -1
     return DrawnLoad(own, joint, sense * size * unit * way / abs(way))
 
@@ -158,18 +224,17 @@ def rpm(speeds: str) -> float:
     return exact if round(exact) == rounded else rounded
 
 
-def one_at_welds(
-    found: Mapping[str, PmksJoint], bodies: Mapping[str, DrawnLink]
-) -> dict[str, DrawnLink]:
-    """The links, those that meet at a welded joint as one."""
-    joined = dict(bodies)
+def one_at_welds(found: Mapping[str, PmksJoint], bodies: dict[str, DrawnLink]) -> dict[str, str]:
+    """Join the links that meet at a welded joint, and tell which link each has become."""
+    holders = {own: own for own in bodies}
     for own, drawn in found.items():
-        at = [name for name, body in joined.items() if drawn.welded and own in body.joints]
+        at = [name for name, body in bodies.items() if drawn.welded and own in body.joints]
         for other in at[1:]:
-            one, gone = joined[at[0]], joined.pop(other)
+            one, gone = bodies[at[0]], bodies.pop(other)
             joints = dict.fromkeys((*one.joints, *gone.joints))
-            joined[at[0]] = DrawnLink(f"{one.name}+{gone.name}", tuple(joints))
-    return joined
+            bodies[at[0]] = DrawnLink(f"{one.name}+{gone.name}", tuple(joints))
+            holders = {part: at[0] if to == other else to for part, to in holders.items()}
+    return holders
 
 
 def new_joint(line: str) -> tuple[str, PmksJoint]:
@@ -304,7 +369,7 @@ def gathered(
 
 def same(found: Mapping[str, PmksJoint], one: str, other: str) -> bool:
     """Whether two joints are drawn in one place."""
-    return abs(found[one].joint.at - found[other].joint.at) < 1.5 / THOUSANDTH
+    return abs(found[one].joint.at - found[other].joint.at) < CLOSE
 
 
 def left_out(force: str) -> Message:

@@ -81,6 +81,15 @@ class DrawnLoad(Struct, frozen=True):
     force: complex
 
 
+class DrawnMass(Struct, frozen=True):
+    """The mass of a link in kg, at one of its joints, and its moment of inertia there in kg·m²."""
+
+    body: str
+    centre: str
+    mass: float
+    inertia: float
+
+
 class Imported(Struct, frozen=True):
     """A mechanism of another program; places in ``unit``, exact to ``rounding``.
 
@@ -97,6 +106,8 @@ class Imported(Struct, frozen=True):
     notes: tuple[Message, ...] = ()
     gears: tuple[DrawnGear, ...] = ()
     loads: tuple[DrawnLoad, ...] = ()
+    masses: tuple[DrawnMass, ...] = ()
+    gravity: bool = False
 
 
 def refused(found: Message, expected: Message = NO_WORDS) -> SceneError:

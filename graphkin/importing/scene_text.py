@@ -28,6 +28,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
+from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
 from graphkin.text.errors import (
@@ -135,8 +136,9 @@ class SceneWriter:
         self.at = {own: joint.at for own, joint in found.joints.items()}
         self.drivers = [each for each in found.inputs if each.body in self.bodies]
         self.loads = [each for each in found.loads if each.body in self.bodies]
+        self.masses = {each.body: each for each in found.masses if each.body in self.bodies}
         if not self.drivers:
-            self.drivers = [self.some_driver(fixed)]
+            self.drivers = self.some_drivers(fixed)
 
     def leave_out_loose(self, fixed: set[str]) -> None:
         """Leave out the links that hang together with nothing fixed, with a note for each."""
@@ -165,19 +167,24 @@ class SceneWriter:
         joints = sorted(body.joints, key=lambda j: (j not in first, j not in fixed))
         return DrawnLink(body.name, tuple(joints))
 
-    def some_driver(self, fixed: set[str]) -> DrawnInput:
-        """A driver where the file has none."""
-        pivoted = ((own, j) for own, body in self.bodies.items() for j in body.joints if j in fixed)
-        own, about = next(pivoted, (next(iter(self.guided), ""), ""))
-        if own not in self.bodies:
+    def some_drivers(self, fixed: set[str]) -> list[DrawnInput]:
+        """As many drivers as freedoms, where the file has none: pivoted links before blocks."""
+        pins = {own: [j for j in body.joints if j in fixed] for own, body in self.bodies.items()}
+        free = [DrawnInput(own, 1.0, held[0]) for own, held in pins.items() if held]
+        free += [DrawnInput(own, 1.0) for own in pins if own in self.guided and not pins[own]]
+        if not free:
             raise refused(message("nothing in it is driven"))
-        self.notes.append(
-            message(
-                "nothing is driven in the file; link {name} is, at speed 1",
-                name=self.numbers[own],
+        self.drivers = free[:1]
+        freedoms = count(read_text(self.text({}), NAME)).mobility
+        chosen = free[: max(1, freedoms)]
+        for driver in chosen:
+            self.notes.append(
+                message(
+                    "nothing is driven in the file; link {name} is, at speed 1",
+                    name=self.numbers[driver.body],
+                )
             )
-        )
-        return DrawnInput(own, 1.0, about)
+        return chosen
 
     def names(self) -> Iterator[tuple[str, str]]:
         """The name in the scene and in the file of each link, then of each joint."""
@@ -216,12 +223,13 @@ class SceneWriter:
             *(head or []),
             f'title = "Mechanism from {self.found.program}"',
             f'units = {{ length = "{self.found.unit}", angle = "deg", speed = "rev/min" }}',
+            *(["gravity = true"] if self.found.gravity else []),
             "",
             "[frame]",
             *(f"{self.points[own]} = {pair(self.at[own])}" for own in self.fixed),
         ]
         for own in self.bodies:
-            lines += ["", f"[links.{self.numbers[own]}]", *self.link(own)]
+            lines += ["", f"[links.{self.numbers[own]}]", *self.link(own), *self.mass(own)]
         for driver in self.drivers:
             lines += ["", "[[drivers]]", *self.driver(driver)]
         for load in self.loads:
@@ -242,6 +250,8 @@ class SceneWriter:
         axis = self.axis(own)
         for joint in joints:
             place = (self.at[joint] - self.at[joints[0]]) / axis
+            if abs(place.imag) < self.found.rounding:
+                place = complex(place.real, 0.0)
             yield f"{self.points[joint]} = {pair(place)}"
         yield from self.wheels(own)
         if guide is not None:
@@ -317,6 +327,13 @@ class SceneWriter:
         """How far to the left of its guide a joint is drawn."""
         assert guide.along is not None
         return ((self.at[guide.first] - self.at[guide.along[0]]) / self.way(guide)).imag
+
+    def mass(self, own: str) -> Iterator[str]:
+        """The keys of a link's mass."""
+        if held := self.masses.get(own):
+            yield f"mass = {held.mass:.{DIGITS}g}"
+            yield f'centre = "{self.points[held.centre]}"'
+            yield f"inertia = {held.inertia:.{DIGITS}g}"
 
     def load(self, load: DrawnLoad) -> Iterator[str]:
         """The keys of a load."""

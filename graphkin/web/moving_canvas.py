@@ -359,7 +359,7 @@ class MovingCanvas(Struct, frozen=True):
         """Draw every place; the page cuts what is beyond its field."""
         return True
 
-    def note(self, text: str) -> None:
+    def note(self, text: str, lead: str = "") -> None:
         """Ignore a note, which holds for the drawn position alone."""
 
 

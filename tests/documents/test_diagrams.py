@@ -28,8 +28,8 @@ from graphkin.documents.diagrams_sheet import (
     cost_of_rate,
     cost_of_second,
     derived_twice,
+    force_courses,
     mean_ordinates,
-    of_forces,
     values_at,
 )
 from graphkin.documents.positions import positions_of
@@ -286,23 +286,23 @@ def test_a_wheel_at_constant_speed_has_no_jerk():
     assert (moved.third(np.linspace(1.0, 300.0, 50)) == 0).all()
 
 
-def test_the_diagrams_show_the_asked_forces_over_the_driver():
-    """They are those of single positions, and have no crosses of a plan."""
+def test_the_diagrams_show_each_asked_force_once_over_the_driver():
+    """They are those of single positions, with a cross at each position of the sheet."""
     mechanism = Mechanism(read_text(scene_text("motion/press"), "press"))
     found = positions_of(mechanism, words("en"))
     at = found.planned_places
     fine = np.linspace(at[0], at[-1], 25)
-    every = {each.name: each for each in of_forces(found, at, fine)}
+    every = {each.name: each for each in force_courses(found, at, fine)}
     assert every.keys() == {"R_12", "R_03", "M_b1"}
     for k in (1, 7, 20):
         solved, _ = found.cycle.path.ranges[0][0].course.mechanism(float(fine[k])).forces()
         (balance,) = solved.balance
         assert every["M_b1"].fine[k] == pytest.approx(balance.moment, rel=1e-9)
     assert (every["R_12"].fine >= 0).all()
-    assert not np.isfinite(every["M_b1"].at_positions).any()
     page = sheets_of(mechanism)["courses"][0]
-    drawn = {m.name for m in page.marks if getattr(m, "cls", "") == "profile"}
-    assert {"R_12", "R_03", "M_b1"} <= drawn
+    axes = [m.name for m in page.marks if isinstance(m, Text) and m.name.startswith("axis ")]
+    for name in every:
+        assert axes.count(f"axis {name}") == 1
 
 
 def test_the_mechanical_advantage_balances_the_power():
@@ -325,6 +325,13 @@ def test_diagrams_stay_on_the_page_in_every_language(name: str, language: str):
     for page in (page for pages in found.values() for page in pages):
         page.check()
         assert page.lang == language
+
+
+def test_a_point_that_keeps_its_line_has_no_hodograph():
+    """Only the pump's piston D is asked: its velocity is a line; A's keeps its length."""
+    page, _ = sheets_of(load("pump"))["hodographs"]
+    named = {mark.name for mark in page.marks if mark.name.startswith("hodograph ")}
+    assert named == {"hodograph B", "hodograph C"}
 
 
 def test_hodographs_have_the_velocities_of_the_positions():

@@ -155,6 +155,13 @@ KINDS = {
         "cam-tangent",
         "geneva-dwell",
     ),
+    "Forces": (
+        "pump-forces",
+        "engine-forces",
+        "shaper-forces",
+        "jaw-crusher-forces",
+        "gears-forces",
+    ),
     "Mobility": (
         "mobility-parallel-cranks",
         "mobility-trammel-bar",

@@ -19,8 +19,7 @@ import click
 from graphkin.classroom.lab.new_lab import causes, kinds
 from graphkin.cli.main import app
 from graphkin.diagnosis.effects import effects
-from graphkin.documents.scaling import sheet_motion
-from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
+from graphkin.documents.sheet_documents import drawn_of, hand_out, language_of
 from graphkin.drawing.marks import Page
 from graphkin.drawing.richtext import font_face
 from graphkin.drawing.style import Ink
@@ -258,6 +257,7 @@ def shown_effects(mechanism: Mechanism) -> Iterator[str]:
     others = {
         "several drivers": len(scene.drivers) > 1,
         "groups by trial": mechanism.is_of_higher_class,
+        "forces": scene.forces is not None,
         "paths": bool(scene.ask.curves),
         "inflection circle": bool(scene.ask.inflection),
         "Klein's construction": scene.sheet.method == "klein",
@@ -267,11 +267,11 @@ def shown_effects(mechanism: Mechanism) -> Iterator[str]:
 
 
 def picture(name: str) -> str:
-    """The mechanism of a scene with its velocities, as an SVG of its own."""
+    """The mechanism of a scene with its forces, else its velocities, as an SVG of its own."""
     mechanism = shown(name)
-    verdict = proved(mechanism, sheet_motion(mechanism))
-    drawings = drawings_of(mechanism, verdict, language_of(mechanism, "en"))
-    panel, _ = next(panels(drawings, "", "velocity", Memory(), quick=False))
+    drawings = drawn_of(mechanism, language_of(mechanism, "en"))
+    some = [each for each in drawings if each.kind == "force"] or drawings[:1]
+    panel, _ = next(panels(some, "", some[0].kind, Memory(), quick=False))
     assert panel.name == MECHANISM
     title = escape(mechanism.scene.titles.get("en", mechanism.scene.title))
     return svg_of(edges_of(panel.marks), title, panel.marks, INK)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Mapping
 from fractions import Fraction
+from math import ceil, floor, log10, pi
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -421,13 +422,15 @@ def check_name(name: str) -> None:
 class OwnLab(Struct, frozen=True):
     """A lab made from a scene: its files, where its parameters are fair, and what it draws from.
 
-    ``proposed`` is None where no ranges were found in which all is fair. The lab then draws from
-    all that the scene allows.
+    ``added`` is the parameter that the scene lacked, as its line in the lab's scene. ``proposed``
+    is None where no ranges were found in which all is fair. The lab then draws from all that the
+    scene allows.
     """
 
     files: list[Path]
     found: FairRanges
     proposed: ProposedRanges | None
+    added: str = ""
 
 
 def lab_from(
@@ -435,15 +438,16 @@ def lab_from(
 ) -> OwnLab:
     """Make the folder of a lab for a scene, with the ranges in which all its variants are fair.
 
-    The scene is copied unchanged; ``say`` receives the progress. Raises SceneError for a
-    scene with a problem or without a
-    parameter that has both ends, and for a name that is no folder name on some system; PageError
-    for files in the way.
+    The scene is copied. Where none of its parameters has both ends, the copy gets one for the
+    position of its first driver. ``say`` receives the progress. Raises SceneError for a scene with
+    a problem, for one whose position cannot vary so, and for a name that is no folder name on some
+    system; PageError for files in the way.
     """
     check_name(name)
     refuse_folder(folder / name, FILES, force=force)
     data = read_bytes(scene)
-    mechanism = Mechanism(read_text(decoded(data), name))
+    text, added = with_parameter(decoded(data), name)
+    data, mechanism = text.encode("utf-8") if added else data, Mechanism(read_text(text, name))
     with TemporaryDirectory() as tried:
         place = Path(tried)
         (place / SCENE).write_bytes(data)
@@ -453,7 +457,49 @@ def lab_from(
         proposed = proposed_ranges(lab, found)
     rules = lab.text if proposed is None else rules_for(mechanism, proposed)
     files = write_all(folder / name, {SCENE: data, LAB: rules.encode("utf-8")}, force)
-    return OwnLab(files, found, proposed)
+    return OwnLab(files, found, proposed, added)
+
+
+POSITION = re.compile(r"(?m)^\s*(angle|position)\s*=\s*([-+]?\d+(?:\.\d+)?)(?=\s*(?:#|$))")
+TURNS = {"deg": (360.0, 5.0), "rad": (2 * pi, 0.1)}
+"""A whole turn, and the step in which the angle of a driver varies, by the unit."""
+SPREAD = 0.3
+"""The share by which the position of a driven slide varies."""
+TABLE = re.compile(r"(?m)^\[")
+PARAMETERS = re.compile(r"(?m)^\[parameters\].*\n")
+
+
+def with_parameter(text: str, name: str) -> tuple[str, str]:
+    """The text of a scene with a parameter for its first driver's position, and that line.
+
+    A text whose parameters have both ends, or whose position is no plain number, stays as it is.
+    """
+    scene = read_text(text, name)
+    first = text.find("[[drivers]]")
+    found = POSITION.search(text, first) if first >= 0 else None
+    ended = any(each.minimum and each.maximum for each in scene.parameters.values())
+    if ended or found is None or "[" in text[first + len("[[drivers]]") : found.start()]:
+        return text, ""
+    slides = scene.drivers[0].kind == "slide"
+    letter, value = "s" if slides else "phi", float(found[2])
+    names = (letter, *(f"{letter}_{i}" for i in range(1, len(scene.parameters) + 1)))
+    own = next(each for each in names if each not in scene.parameters)
+    if slides:
+        step = 10 ** floor(log10(abs(value) * SPREAD / 5)) if value else 1.0
+        low, high = sorted((value * (1 - SPREAD), value * (1 + SPREAD))) if value else (-10.0, 10.0)
+    else:
+        turn, step = TURNS[scene.units["angle"]]
+        value, low, high = value % turn, 0.0, turn - step / 2
+    ends = ceil(low / step), floor(high / step)
+    here = min(round(value / step), ends[1])
+    value, low, high = (step * each for each in (here, *ends))
+    line = f"{own} = {{ value = {value:g}, min = {low:g}, max = {high:g}, step = {step:g} }}"
+    text = f'{text[: found.start(2)]}"{own}"{text[found.end(2) :]}'
+    end = "\r\n" if "\r\n" in text else "\n"
+    if table := PARAMETERS.search(text):
+        return f"{text[: table.end()]}{line}{end}{text[table.end() :]}", line
+    at = next(TABLE.finditer(text)).start()
+    return f"{text[:at]}[parameters]{end}{line}{end}{end}{text[at:]}", line
 
 
 def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> str:

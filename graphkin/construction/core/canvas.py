@@ -116,5 +116,5 @@ class Canvas(Protocol):
     def holds(self, place: Any) -> bool:
         """Whether a place is in the field."""
 
-    def note(self, text: str) -> None:
-        """A text at the foot of the field."""
+    def note(self, text: str, lead: str = "") -> None:
+        """A text at the foot of the field; texts with one lead are listed after it."""

@@ -157,8 +157,11 @@ def note_tiny(plot: Plot, name: str, length: OnPaper) -> None:
     """Add a note at the foot of the field for a vector too short to be seen."""
     words, drawing = plot.drawing.words, plot.drawing
     factor = scale_of(drawing, drawing.plane)
-    key = "page.tiny" if drawing.settled(length * factor / 1000) else "page.zero"
-    note = FootNote(words(key, name=name, length=in_mm(words, length)), name)
+    if not drawing.settled(length * factor / 1000):
+        note = FootNote(words("page.zero", name=name), name)
+    else:
+        said = words("page.tiny", name=name, length=in_mm(words, length))
+        note = FootNote(said, name, words("page.too_short"))
     if note not in plot.board.notes:
         plot.board.notes.append(note)
 
@@ -681,7 +684,7 @@ class PaperCanvas(Struct, frozen=True):
         """Whether a place is in the field of the sheet."""
         return self.plot.field.holds(place)
 
-    def note(self, text: str) -> None:
+    def note(self, text: str, lead: str = "") -> None:
         """Write a text at the foot of the field, once."""
-        if (note := FootNote(text)) not in self.plot.board.notes:
+        if (note := FootNote(text, lead=lead)) not in self.plot.board.notes:
             self.plot.board.notes.append(note)

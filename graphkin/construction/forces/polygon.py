@@ -265,11 +265,12 @@ def draw_force(canvas: Canvas, name: str, look: str, tail: Any, tip: Any) -> Non
     if canvas.size(tip - tail) >= TINY:
         canvas.vector(name, look, tail, tip)
         return
-    drawing = canvas.drawing
-    size = drawing.settled(abs(tip - tail))
-    length = in_mm(drawing.words, drawn_force(drawing, size))
-    key = "page.tiny" if size else "page.zero"
-    canvas.note(drawing.words(key, name=symbol(name), length=length))
+    drawing, words = canvas.drawing, canvas.drawing.words
+    if not (size := drawing.settled(abs(tip - tail))):
+        canvas.note(words("page.zero", name=symbol(name)))
+        return
+    length = in_mm(words, drawn_force(drawing, size))
+    canvas.note(words("page.tiny", name=symbol(name), length=length), words("page.too_short"))
 
 
 def links_words(drawing: Drawing, links: Sequence[str]) -> str:

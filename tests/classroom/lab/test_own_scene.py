@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from graphkin.classroom.lab.fairness import judged
@@ -60,6 +62,58 @@ def test_a_scene_without_a_range_is_told_how_to_write_one(tmp_path):
     with pytest.raises(SceneError, match=r"no parameter has min and max.*min = …, max = …"):
         lab_from(own, "mine", tmp_path)
     assert not (tmp_path / "mine").exists()
+
+
+TURNED = FOUR_BAR.replace('"phi"', "61.5")
+WITHOUT = re.sub(r"\[parameters\]\n.*\n", "", TURNED)
+FIXED = TURNED.replace(", min = 0, max = 170, step = 5", "")
+SLID = """\
+graphkin = 1
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+O = [0, 0]
+[links.1]
+A = [0, 0]
+slides = { on = 0, through = "O", angle = 0 }
+[links.2]
+A-B = 100
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O", angle = 90 }
+[[drivers]]
+slide = 1  # to the right
+position = 45
+speed = 30
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "old"),
+    [
+        (WITHOUT, "phi", 60),
+        (WITHOUT.replace("\n", "\r\n"), "phi", 60),
+        (FIXED, "phi_1", 60),
+        (SLID, "s", 45),
+    ],
+)
+def test_a_scene_without_a_parameter_gets_one_for_its_driver(tmp_path, text, name, old):
+    """The other bytes stay; students then differ in the position of the driver."""
+    own = tmp_path / "mine.toml"
+    own.write_bytes(text.encode())
+    made = ran("new", "lab", "mine", "--from", str(own), "-o", str(tmp_path))
+    assert made.exit_code == 0, made.output
+    assert name in made.output
+    lab = read_lab(tmp_path / "mine")
+    (own_name,) = lab.rule.draws
+    assert own_name == name
+    assert f"{name} = {{ value = {old}, " in lab.scene.read_text()
+    assert len({float(lab.rule.draws[name].value(k)) for k in range(len(lab.rule.draws[name]))}) > 5
+    kept = [line for line in text.splitlines() if not line.startswith(("angle", "position"))]
+    assert [line for line in lab.scene.read_bytes().decode().splitlines() if line in kept] == kept
 
 
 def test_the_command_makes_it_and_refuses_to_replace_it(tmp_path):
