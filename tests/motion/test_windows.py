@@ -122,7 +122,7 @@ def test_a_rack_moves_as_far_as_its_pinion_turns_once():
 
 
 def test_a_slide_that_nothing_stops_is_shown_as_far_as_the_mechanism_is_large():
-    """O1 and C are farthest apart; C is 300 mm from O2 towards R, which is 10 mm right, 200 below."""
+    """O1 and C are farthest apart: C is 300 mm from O2 towards R, 10 mm right and 200 mm below."""
     mechanism = load(FOLDER / "motion/bell-cranks-with-slots.toml")
     found = cycle(mechanism, steps=12)
     large = abs(1.2 + 0.3 * (0.01 - 0.2j) / abs(0.01 - 0.2j))
