@@ -25,8 +25,8 @@ NARROWINGS = 5
 """How many times the last step at the end of a range is cut into parts."""
 PARTS = 16
 """Parts of each such cut, all tried at once."""
-TOUCHING = 1e-5
-"""Share of a step that rounding leaves between two ranges which meet."""
+TOUCHING = 1e-7
+"""Share of the whole search that rounding leaves between two ranges which meet."""
 FEWER, ROUNDS = 36, (0, 2, 1, 3)
 """FEWEST for groups that try several links at once; a position costs a hundredfold.
 
@@ -233,7 +233,7 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     begun = [(low - (TURN if high < low else 0), high) for low, high in pairs]
     over = TURN if sweep.whole else float("inf")
     placed = ((low - TURN, high - TURN) if high > over else (low, high) for low, high in begun)
-    return joined_at_touches(sorted(placed), TOUCHING * step, sweep.whole)
+    return joined_at_touches(sorted(placed), TOUCHING * (sweep.high - sweep.low), sweep.whole)
 
 
 def joined_at_touches(found: list[Range], near: float, whole: bool) -> list[Range]:
