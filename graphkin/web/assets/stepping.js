@@ -13,7 +13,8 @@ import { put } from "./zoom.js";
 
 /** Show a step. */
 export function show(step) {
-  const before = state.step;
+  const before = state.step,
+    focus_kept = keeping_focus();
   state.step = Math.min(Math.max(Math.round(step) || 0, 0), last);
   state.over = null;
   sheets.forEach(({ element }, i) => {
@@ -26,7 +27,8 @@ export function show(step) {
   }
   for (const part of sheets[here()].parts)
     part.classList.toggle("later", Number(part.dataset.from) > state.step);
-  for (const row of found) row.classList.toggle("unknown", Number(row.dataset.found) > state.step);
+  for (const row of found)
+    row.classList.toggle("unknown", Number(row.dataset.found) > state.step);
   slider.value = String(state.step);
   byId("previous").disabled = state.step === 0;
   byId("next").disabled = state.step === last;
@@ -41,7 +43,18 @@ export function show(step) {
   trace();
   if (state.step === before + 1) write();
   else lift();
+  focus_kept();
   remember();
+}
+
+/** What gives the focus to the sentence, or else to the slider, if its element goes or is disabled. */
+function keeping_focus() {
+  const held = /** @type {HTMLButtonElement} */ (document.activeElement),
+    other = byId("told").contains(held) ? byId("told") : slider;
+  return () => {
+    if (!held.isConnected || held.disabled)
+      other.focus({ preventScroll: true });
+  };
 }
 
 /** Show a step that the reader has chosen, and stop playing. */
