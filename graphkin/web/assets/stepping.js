@@ -27,8 +27,7 @@ export function show(step) {
   }
   for (const part of sheets[here()].parts)
     part.classList.toggle("later", Number(part.dataset.from) > state.step);
-  for (const row of found)
-    row.classList.toggle("unknown", Number(row.dataset.found) > state.step);
+  for (const row of found) row.classList.toggle("unknown", Number(row.dataset.found) > state.step);
   slider.value = String(state.step);
   byId("previous").disabled = state.step === 0;
   byId("next").disabled = state.step === last;
@@ -52,8 +51,7 @@ function keeping_focus() {
   const held = /** @type {HTMLButtonElement} */ (document.activeElement),
     other = byId("told").contains(held) ? byId("told") : slider;
   return () => {
-    if (!held.isConnected || held.disabled)
-      other.focus({ preventScroll: true });
+    if (!held.isConnected || held.disabled) other.focus({ preventScroll: true });
   };
 }
 
