@@ -25,6 +25,8 @@ NARROWINGS = 5
 """How many times the last step at the end of a range is cut into parts."""
 PARTS = 16
 """Parts of each such cut, all tried at once."""
+TOUCHING = 1e-7
+"""Share of the whole search that rounding leaves between two ranges which meet."""
 FEWER, ROUNDS = 36, (0, 2, 1, 3)
 """FEWEST for groups that try several links at once; a position costs a hundredfold.
 
@@ -230,7 +232,29 @@ def ranges_of(course: Course, count: int) -> list[Range]:
     pairs = zip(lows, highs, strict=True)
     begun = [(low - (TURN if high < low else 0), high) for low, high in pairs]
     over = TURN if sweep.whole else float("inf")
-    return sorted((low - TURN, high - TURN) if high > over else (low, high) for low, high in begun)
+    placed = ((low - TURN, high - TURN) if high > over else (low, high) for low, high in begun)
+    return joined_at_touches(sorted(placed), TOUCHING * (sweep.high - sweep.low), sweep.whole)
+
+
+def joined_at_touches(found: list[Range], near: float, whole: bool) -> list[Range]:
+    """The ranges, without the gap at a position at which loci only touch and rounding parts them.
+
+    Such a gap is at most ``near`` wide. ``whole``: the last range goes on in the first.
+    """
+    from graphkin.motion.driving import TURN
+
+    kept = found[:1]
+    for low, high in found[1:]:
+        if low - kept[-1][1] <= near:
+            kept[-1] = kept[-1][0], high
+        else:
+            kept.append((low, high))
+    if whole and kept[0][0] + TURN - kept[-1][1] <= near:
+        if len(kept) == 1:
+            return [(0.0, TURN)]
+        (_, high), *rest, (low, _) = kept
+        kept = [(low - TURN, high), *rest]
+    return kept
 
 
 def touched(margins: Any, closed: Any, whole: bool) -> Any:

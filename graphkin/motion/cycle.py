@@ -270,8 +270,9 @@ def no_rows(sweep: Sweep, path: Path, steps: int) -> Problem:
 def places(sweep: Sweep, path: Path, steps: int) -> Reals:
     """The values of u of the rows, in equal steps.
 
-    There are ``steps`` in each turn of the driver's circle, from zero, or in a range between its
-    ends. A full turn that does not recur has a row at its end, too.
+    There are ``steps`` in each turn of the driver's circle, from zero, in a stated window of angles
+    or seconds, or in a range between its ends. A full turn that does not recur has a row at its
+    end, too.
     """
     if sweep.whole:
         if path.whole and not path.returns:
@@ -285,7 +286,7 @@ def places(sweep: Sweep, path: Path, steps: int) -> Reals:
         parts = [every[(low <= every) & (every <= high)] for low, high in path.spans]
         missing = even[~closing(even, np.concatenate(parts), turns * TURN)]
         return np.concatenate([*parts, missing])
-    if sweep.low < sweep.high and (sweep.what in ("turn", "time")):
+    if sweep.stated and sweep.what in ("turn", "time"):
         return np.linspace(sweep.low, sweep.high, steps + 1)
     return np.concatenate([np.linspace(low, high, steps + 1) for low, high in path.spans])
 

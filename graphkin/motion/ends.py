@@ -136,13 +136,15 @@ class Event(Struct, frozen=True):
 
     At a ``number`` the closure continues smoothly under another number. A ``flat`` event lies
     within a group whose closure is followed; the motion continues, and no piece ends. ``beyond``
-    is, for a dead point, a u at which nothing closes.
+    is, for a dead point, a u at which nothing closes. ``free``: nothing stops the driver beyond
+    this end of the window.
     """
 
     kind: End
     at: float
     steps: tuple[int, ...] = ()
     beyond: float | None = None
+    free: bool = False
 
 
 def next_event(course: Course, start: float, stop: float) -> Event:
@@ -245,6 +247,7 @@ def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
     step = float(grid[1] - grid[0])
     centre = float(grid[k])
     touch = SOUGHT if course.closures else TOUCH
+    inner = course.within_groups if course.closures else frozenset[int]()
     known: dict[int, tuple[float, float]] = {}
     for _ in range(2):
         samples = course.margins(centre + AROUND * step)[:-1]
@@ -252,6 +255,9 @@ def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
         known = {n: low for n, low in lows.items() if low is not None and low[1] < touch}
         if not known:
             return None
+        known = {n: low for n, low in known.items() if course.crossings[n] not in inner}
+        if not known:  # the followed closure knows its own end
+            return Event("flat", centre)
         first = min(known, key=lambda n: known[n][1])
         centre += known[first][0] * step
     if course.margins(np.array([centre]))[first, 0] > OPEN:
@@ -260,10 +266,6 @@ def looked_at(course: Course, grid: Reals, k: int) -> Event | None:
         return dead(course, centre - 2 * step, centre)
     at = centre + touch_of(course, centre, step, first)
     steps = tuple(course.crossings[n] for n in sorted(known))
-    if course.closures:
-        steps = tuple(n for n in steps if n not in course.within_groups)
-    if not steps:
-        return Event("flat", at)
     if runs_away(course, steps[0], at - step):
         return Event("dead", at, steps, at)
     return Event("change", at, steps)

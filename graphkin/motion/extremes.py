@@ -52,7 +52,7 @@ STEP = 1e-3
 """Step of central differences: radians, the range of a slide or of the time taken as a turn."""
 SAME = 1e-9
 """Share of the largest size within which two extremes are equal."""
-ROUNDED = 1e-7
+ROUNDED = 1e-6
 """The same beside change points, where fewer digits are sure."""
 LEVEL = 1e-12
 """Share of the largest size within which a value stays the same."""
@@ -232,6 +232,7 @@ class Search:
         turns = cycle.sweep.what == "turn"
         self.step = STEP * (1 / cycle.sweep.per_unit if turns else self.span / (2 * np.pi))
         self.at = np.unique(np.concatenate([self.samples(piece) for piece in pieces]))
+        self.apart = float(np.median(np.diff(self.at)))
 
     def samples(self, piece: Any) -> Reals:
         """The samples of a piece, denser towards its singular ends."""
@@ -491,11 +492,24 @@ class Search:
     def once(self, found: Sequence[Reached]) -> tuple[Reached, ...]:
         """The places in order, each once, those of a driver that turns fully from 0 on."""
         kept: dict[float, Reached] = {}
-        for each in found:
+        for each in map(self.single, found):
             at = once_round(self.cycle.path, each.at)
-            at = 0.0 if abs(at) <= PLACED * self.span else at
+            least = PLACED * self.span
+            at = 0.0 if abs(at) <= least or (self.closed and self.span - at <= least) else at
             kept.setdefault(round(at, 6), Reached(at, each.until + at - each.at, each.end))
         return tuple(kept[key] for key in sorted(kept))
+
+    def single(self, found: Reached) -> Reached:
+        """The place itself, or the middle of one that is shorter than the samples are apart.
+
+        If it holds a change point, next to which samples are denser, this is the middle.
+        """
+        if found.until - found.at >= self.apart:
+            return found
+        round_it = (self.cycle.path.found_at(u, found.at, found.until) for u in self.changes)
+        inside = (u for u in round_it if found.at <= u <= found.until)
+        at = next(inside, (found.at + found.until) / 2)
+        return Reached(at, at, found.end)
 
 
 def size_of(row: Reals) -> float:

@@ -22,7 +22,7 @@ from graphkin.construction.core.quantities import KINDS
 from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.motion.closures_followed import carried, carried_about, numbers_between
 from graphkin.motion.course import Branches, Course, Reals
-from graphkin.motion.driving import GRID, TURN
+from graphkin.motion.driving import GRID, TURN, reach_of
 from graphkin.motion.ends import Event, next_event
 from graphkin.motion.sweep import Sweep, Turned
 from graphkin.motion.turns_followed import (
@@ -273,12 +273,15 @@ def others(course: Course, first: Path) -> list[Range]:
 def shown(sweep: Sweep, path: Path) -> Path:
     """The part of a path that lies in the window, with its closures numbered.
 
-    Raises ClosureError where no part lies there.
+    A slide that nothing stops is shown as far to each side as the mechanism is large, without a
+    stated window. Raises ClosureError where no part lies there.
     """
-    path = replace(path, ranges=tuple(map(in_numbers, path.ranges)))
     if sweep.whole:
-        return path
-    ranges = tuple(found for found in (within(sweep, each) for each in path.ranges) if found)
+        return replace(path, ranges=tuple(map(in_numbers, path.ranges)))
+    reach = reach_of(sweep.original) if sweep.is_length else 0.0
+    far = reach if sweep.stated else min(reach, extent(path.ranges[0], sweep.start) or reach)
+    found = (within(sweep, each, 2 * reach, far) for each in path.ranges)
+    ranges = tuple(in_numbers(each) for each in found if each)
     if ranges:
         return replace(path, ranges=ranges)
     spans = joined(
@@ -300,16 +303,42 @@ def shown(sweep: Sweep, path: Path) -> Path:
     )
 
 
-def within(sweep: Sweep, found: Range) -> Range:
-    """The pieces of a range that lie in the window, cut at its ends."""
+def within(sweep: Sweep, found: Range, enough: float, far: float) -> Range:
+    """The pieces of a range that lie in the window, cut at its ends.
+
+    Where nothing stops a slide ``enough`` from its start, nothing stops it at all. Such an end is
+    cut ``far`` from the start, unless the window is stated.
+    """
+    low, high = (
+        Event("window", at, free=bool(enough) and abs(at - sweep.start) >= enough)
+        for at in (sweep.low, sweep.high)
+    )
+    if low.free and not sweep.stated and found[0].low.at <= low.at:
+        low = replace(low, at=sweep.start - far)
+    if high.free and not sweep.stated and found[-1].high.at >= high.at:
+        high = replace(high, at=sweep.start + far)
     pieces = []
     for piece in found:
-        low, high = piece.low, piece.high
-        low = Event("window", sweep.low) if low.at < sweep.low else low
-        high = Event("window", sweep.high) if high.at > sweep.high else high
-        if low.at < high.at:
-            pieces.append(replace(piece, low=low, high=high))
+        first = low if is_beyond(piece.low, low.at - piece.low.at) else piece.low
+        last = high if is_beyond(piece.high, piece.high.at - high.at) else piece.high
+        if first.at < last.at:
+            pieces.append(replace(piece, low=first, high=last))
     return tuple(pieces)
+
+
+def is_beyond(end: Event, by: float) -> bool:
+    """Whether an end lies beyond that of the window, or is this end."""
+    return by > 0 or (by == 0 and end.kind == "window")
+
+
+def extent(found: Range, start: float) -> float:
+    """How far apart the points of a mechanism are (m), at the place of a range nearest a start."""
+    piece = next((each for each in found if each.holds(np.array(start))), found[0])
+    at = np.array([min(max(start, piece.low.at), piece.high.at)])
+    targets = piece.course.program.targets
+    wanted = [(what, of) for what, of in targets if what == "position" and not is_under(of)]
+    places = np.array([place[0] for place in piece.course.columns(at, wanted).values()])
+    return float(np.nanmax(np.abs(places[:, None] - places[None, :]), initial=0.0))
 
 
 def refuse_far(sweep: Sweep) -> None:

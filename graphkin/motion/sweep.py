@@ -34,7 +34,7 @@ from graphkin.motion.driving import (
 )
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME, Name
-from graphkin.scene.model import FRAME, Branch, Driver, Link, Scene
+from graphkin.scene.model import FRAME, Branch, Driver, Scene
 from graphkin.scene.quantity import Quantity
 from graphkin.structure.turn_counting import counted_near
 from graphkin.text.errors import Problem, SceneError, message, verbatim
@@ -133,9 +133,8 @@ def window(
         last = high if high is not None else first + whole_turn(scene)
     else:
         back = ahead = reach_of(scene) * FREE
-        if what != "slide" and number is not None:
-            way = wheel_turn(scene.links[scene.drivers[number - 1].link], scene) or ahead
-            start, back, ahead = start - way / 2, 0.0, way
+        if number is not None and (way := wheel_turn(scene, scene.drivers[number - 1])):
+            back = ahead = way / 2
         least, most = start - back, start + ahead
         if number is not None:
             least, most = on_one_side(scene, scene.drivers[number - 1], start, least, most)
@@ -199,10 +198,21 @@ def usual(scene: Scene, what: What, number: int | None, low: float, high: float)
     return last - first
 
 
-def wheel_turn(link: Link, scene: Scene) -> float:
-    """The path of a wheel in one turn (m); zero if its radius is not given."""
-    radii = [wheel.radius.si(scene.values) for wheel in link.wheels if wheel.radius is not None]
-    return 2 * pi * float(radii[0]) if radii else 0.0
+def wheel_turn(scene: Scene, driver: Driver) -> float:
+    """The path of a driver in one turn of its wheel, or of the largest wheel on its rack (m).
+
+    Zero without such a wheel, or if no radius is given.
+    """
+    rolling = [scene.links[driver.link]] if driver.kind == "roll" else []
+    if driver.kind == "slide":
+        rolling = [
+            link
+            for link in scene.every_link
+            if any(each.on == driver.link and each.through is not None for each in link.rolls)
+        ]
+    radii = [link.wheels[0].radius for link in rolling if link.wheels]
+    ways = [2 * pi * float(radius.si(scene.values)) for radius in radii if radius is not None]
+    return max(ways, default=0.0)
 
 
 def whole_turn(scene: Scene) -> float:
@@ -304,7 +314,7 @@ class Sweep(Struct, frozen=True, eq=False):
     u is the swept driver's position in degrees or metres, or the time in seconds. ``start`` is the
     scene's own u, ``low`` to ``high`` the window. ``whole`` means that the window is one full turn.
     ``number`` counts drivers from 1 and is None for the time. ``usual`` is the length of the
-    default window, in the unit of u.
+    default window, in the unit of u. ``stated`` means that a bound of the window is given.
     """
 
     scene: Scene
@@ -316,6 +326,7 @@ class Sweep(Struct, frozen=True, eq=False):
     high: float
     whole: bool
     usual: float
+    stated: bool = False
 
     @property
     def coordinate(self) -> Coordinate:
@@ -426,7 +437,8 @@ def sweep_of(
             start %= TURN
     first, last, whole = window(scene, what, number, start, low, high)
     way = usual(scene, what, number, first, last)
-    return Sweep(named(scene, number), scene, what, number, start, first, last, whole, way)
+    stated = low is not None or high is not None
+    return Sweep(named(scene, number), scene, what, number, start, first, last, whole, way, stated)
 
 
 def chosen(scene: Scene, driver: int | None) -> int | None:

@@ -18,6 +18,7 @@ from graphkin.construction.tape.tape_outputs import runner
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import COORDINATES, TURN, What, stated_motion
+from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME
@@ -256,7 +257,7 @@ class Reach(Struct, frozen=True):
 
 
 def window(driven: PageDriver) -> tuple[float, float]:
-    """The window that is searched: one turn to each side, or as far as the sweep of a cycle."""
+    """The window that is searched: one turn to each side, or as far as a cycle goes."""
     if driven.what == "turn":
         return driven.start - TURN, driven.start + TURN
     own = driven.driver
@@ -264,7 +265,8 @@ def window(driven: PageDriver) -> tuple[float, float]:
     sweep = sweep_of(driven.scene, driver=number)
     if driven.what == "time":
         return min(sweep.low, driven.start), driven.start + sweep.high
-    return sweep.low / driven.metres, sweep.high / driven.metres
+    low, high = reachable_ranges(sweep).spans[0]
+    return low / driven.metres, high / driven.metres
 
 
 def reach_of(

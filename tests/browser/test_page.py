@@ -117,6 +117,21 @@ def test_the_keys_go_through_why_and_what_it_hangs_on(kept: Opened, pages: Path)
     assert page.locator("#from a").count() == 3
 
 
+def test_the_focus_stays_where_a_step_takes_its_element_away(kept: Opened, pages: Path):
+    """On the sentence after a link in it, on the slider after the last press of a button."""
+    page = kept(pages / "pump.html", "#step=6", **DESKTOP)
+    focused = "document.activeElement.id"
+    page.locator("#from a", has_text="B").focus()
+    page.keyboard.press("Enter")
+    assert (step_of(page), page.evaluate(focused)) == (2, "told")
+    for button, step in (("previous", 1), ("next", page.evaluate(STEPS) - 1)):
+        page.evaluate(f"location.hash = '#step={step}'")
+        page.evaluate(PAINTED)
+        page.locator(f"#{button}").focus()
+        page.keyboard.press("Enter")
+        assert page.evaluate(focused) == "step"
+
+
 # --- the beginning -------------------------------------------------------------------------------
 
 

@@ -15,6 +15,7 @@ from graphkin.motion.cycle import cycle
 from graphkin.motion.extremes import Extremes, asked_measures, extremes
 from graphkin.motion.transmission import all_extremes, ratio_measures
 from graphkin.scene.read_scene import read_text
+from tests.scene_files import FOLDER
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
 GOLDEN = (sqrt(5) - 1) / 2
@@ -141,6 +142,24 @@ def test_a_parallelogram_turns_evenly_through_its_change_points():
     assert constant == pytest.approx(
         {"|v_C|": 0.7, "|a_C|": 7, "ω_2": 0, "ω_3": 10, "ε_2": 0, "ε_3": 0}, rel=1e-6
     )
+
+
+def test_the_jaws_of_a_gripper_keep_their_acceleration_through_change_points():
+    """They move on circles of 80 mm at 40/30 rad/s: 0.08 · (4/3)² m/s²."""
+    found = found_in(load(FOLDER / "motion/gripper-on-a-rack.toml"))
+    assert found["|a_E|"].is_constant
+    assert found["|a_E|"].least.value == pytest.approx(0.08 * 16 / 9, rel=1e-6)
+
+
+def test_extremes_at_change_points_are_single_places_counted_from_zero():
+    """An antiparallelogram's ratio is (a ∓ r)/(a ± r) where all its bars lie on one line."""
+    found = found_in(load(FOLDER / "motion/antiparallelogram.toml"))
+    for label in ("|v_B|", "ω_2", "ω_3"):
+        every = [*found[label].least.places, *found[label].largest.places]
+        assert [each.at for each in every] == [each.until for each in every]
+        assert sorted(each.at for each in every) == pytest.approx([0, 180], abs=1e-6)
+    assert found["ω_3"].least.value == pytest.approx(-10 * 140 / 60)
+    assert found["ω_3"].largest.value == pytest.approx(-10 * 60 / 140)
 
 
 def test_a_driver_that_runs_backwards_changes_signs_not_places():

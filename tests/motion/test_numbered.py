@@ -19,6 +19,7 @@ from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers
 from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import Closure
+from tests.scene_files import FOLDER
 
 
 @pytest.fixture(scope="module")
@@ -222,3 +223,20 @@ def test_trial_rates_are_the_best_of_all_pairs():
 
     pairs = [(a, b) for a in worse for b in worse if abs(a) < abs(b)]
     assert best_of(spread, worse) == min(pairs, key=lambda pair: fault(*pair))
+
+
+def test_a_motion_goes_on_where_two_links_of_a_group_are_in_line():
+    """A plate on three bars stops where their lines meet in one point, and nowhere before.
+
+    B, E and D are in line half a millisecond earlier. C. Gosselin and J. Angeles: Singularity
+    analysis of closed-loop kinematic chains, 1990.
+    """
+    found = cycle(load(FOLDER / "motion/three-cranks-and-a-plate.toml"), low=0.07, steps=8)
+    (_, end), *_ = found.ranges
+    last = found.along([end - 2e-6]).solution
+    places = {name: each.position[0] for name, each in last.points.items()}
+    lines = []
+    for pin, plate in ("AD", "BE", "CF"):
+        way = (places[plate] - places[pin]) / abs(places[plate] - places[pin])
+        lines.append((way.real, way.imag, (places[pin].conjugate() * way).imag / 0.1))
+    assert np.linalg.det(lines) == pytest.approx(0, abs=0.02)

@@ -11,6 +11,7 @@ from graphkin.motion.cycle import cycle
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
 from tests.mechanisms import mechanism_of
+from tests.scene_files import FOLDER
 
 SCENES = Path(__file__).parent / "scenes"
 
@@ -72,3 +73,13 @@ def test_a_dead_point_turns_away_is_found_from_any_start(angle, tmp_path):
     mechanism = graphkin.load(scene)
     spans = reachable_ranges(sweep_of(mechanism.scene)).spans
     assert [high for _, high in spans] == [pytest.approx(676.6479473, abs=1e-6)]
+
+
+def test_ranges_that_meet_where_loci_touch_are_one():
+    """Rounding alone parts them: all bars of one lie on a line twice a turn, tongs shut at zero."""
+    assert closing(graphkin.load(FOLDER / "motion/antiparallelogram.toml").scene).ranges == [
+        (0, 360)
+    ]
+    tongs = graphkin.load(FOLDER / "motion/lazy-tongs.toml")
+    (found,) = closing(tongs.scene).ranges
+    assert found == pytest.approx((-0.12, 0.12), abs=1e-7)

@@ -18,6 +18,7 @@ from graphkin.motion.sweep import bounds_in_si, turn_evenly, whole_turn, window
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
 from tests.motion.linkages import four_bar, slider_crank
+from tests.scene_files import FOLDER
 
 
 @pytest.fixture
@@ -101,6 +102,35 @@ def test_a_window_of_many_turns_is_followed_part_by_part(searched):
     found = cycle(slider_crank(2, 5), low=0, high=7200, steps=10)
     assert found.at == pytest.approx(np.arange(11) * 720)
     assert max(searched) <= 1.5 * GRID + 2
+
+
+def test_a_motion_in_time_that_ends_is_divided_into_the_steps_as_a_range_is():
+    """G runs out at 600 + 25 t = 500 + 200 mm; a window that is stated keeps its own steps."""
+    mechanism = load(FOLDER / "motion/two-cylinders.toml")
+    found = cycle(mechanism, steps=8)
+    assert found.at == pytest.approx(np.arange(8) / 2)
+    assert found.left_out == pytest.approx([4])
+    assert cycle(mechanism, low=0, high=10, steps=5).at == pytest.approx([0, 2])
+
+
+def test_a_rack_moves_as_far_as_its_pinion_turns_once():
+    """2π·30 mm, half of it to each side; the parallelograms change twice in a turn."""
+    found = cycle(load(FOLDER / "motion/gripper-on-a-rack.toml"), steps=12)
+    half = 0.03 * np.pi
+    assert found.ranges == (pytest.approx((0.02 - half, 0.02 + half)),)
+    assert [each.kind for each in found.singulars] == ["change", "change"]
+
+
+def test_a_slide_that_nothing_stops_is_shown_as_far_as_the_mechanism_is_large():
+    """O1 and C are farthest apart: C is 300 mm from O2 towards R, 10 mm right and 200 mm below."""
+    mechanism = load(FOLDER / "motion/bell-cranks-with-slots.toml")
+    found = cycle(mechanism, steps=12)
+    large = abs(1.2 + 0.3 * (0.01 - 0.2j) / abs(0.01 - 0.2j))
+    assert found.ranges == (pytest.approx((0.06 - large, 0.06 + large)),)
+    (line,) = [line for line in cycle_lines(found) if line.startswith("range")]
+    assert line.endswith("from -1191.38 mm to 1311.38 mm; nothing stops it below and above")
+    wide = cycle(mechanism, low=-5, high=5, steps=12)
+    assert wide.ranges == (pytest.approx((-5, 5)),)
 
 
 RANGES = {

@@ -330,23 +330,16 @@ def range_words(cycle: Cycle) -> list[str]:
         line = f"{sweep.coordinate.letter} from {ends[0]} to {ends[1]}"
         line += f" ({short(high.at - low.at)}° in all)" if sweep.what == "turn" else ""
         if sweep.is_length:
-            line += beyond_words(sweep, low, high)
+            line += beyond_words(low, high)
         lines.append(line)
     return lines + list(circle_words(cycle.path))
 
 
-def beyond_words(sweep: Sweep, low: Event, high: Event) -> str:
-    """Whether the motion continues beyond the ends of a range that are not dead points.
-
-    The range is that of a slide or a wheel. If nothing has stopped the driver where all lengths
-    together no longer reach, nothing stops it at all.
-    """
-    from graphkin.motion.driving import reach_of
-
+def beyond_words(low: Event, high: Event) -> str:
+    """Whether the motion continues beyond the ends of a range that are not dead points."""
     open_ends = [(end, w) for end, w in ((low, "below"), (high, "above")) if end.kind == "window"]
-    enough = 2 * reach_of(sweep.original)
-    free = [w for end, w in open_ends if abs(end.at - sweep.start) >= enough]
-    more = [w for _, w in open_ends if w not in free]
+    free = [w for end, w in open_ends if end.free]
+    more = [w for end, w in open_ends if not end.free]
     words = f"; nothing stops it {' and '.join(free)}" if free else ""
     return words + (f"; it goes on {' and '.join(more)}" if more else "")
 

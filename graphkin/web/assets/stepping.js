@@ -13,7 +13,8 @@ import { put } from "./zoom.js";
 
 /** Show a step. */
 export function show(step) {
-  const before = state.step;
+  const before = state.step,
+    focus_kept = keeping_focus();
   state.step = Math.min(Math.max(Math.round(step) || 0, 0), last);
   state.over = null;
   sheets.forEach(({ element }, i) => {
@@ -41,7 +42,17 @@ export function show(step) {
   trace();
   if (state.step === before + 1) write();
   else lift();
+  focus_kept();
   remember();
+}
+
+/** What gives the focus to the sentence, or else to the slider, if its element goes or is disabled. */
+function keeping_focus() {
+  const held = /** @type {HTMLButtonElement} */ (document.activeElement),
+    other = byId("told").contains(held) ? byId("told") : slider;
+  return () => {
+    if (!held.isConnected || held.disabled) other.focus({ preventScroll: true });
+  };
 }
 
 /** Show a step that the reader has chosen, and stop playing. */
