@@ -17,6 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
+from graphkin.loops.equations import guide_on
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals
 from graphkin.numbers.plane import Line
@@ -248,17 +249,15 @@ def line_of(scene: Scene, motion: Motion, contact: Contact) -> Line:
 def cams_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
     """The contacts of cams with their followers, each along the common normal.
 
-    The follower slips along the cam, so the normal is square to its velocity relative to the cam.
-    Raises StructureError where nothing slips, and for a second roller, which presses as well.
+    The follower slips along the cam as the cam moves, so the normal is square to that slip. The law
+    gives the slip for a unit of the cam's motion, though the cam may be at rest against its
+    carrier. Raises StructureError where nothing slips, and for a second roller, which presses as
+    well.
     """
     for follower, cam in scene.cams.items():
         name, links = f"{follower}-{cam.on}", (follower, cam.on)
         tip = pin_of(motion, cam.point)
-        one, other = (motion.carried(e, np.array([tip])) for e in links)
-        slip = complex(one.velocity[0] - other.velocity[0])
-        turned = float(
-            motion.omega[0, motion.index[follower]] - motion.omega[0, motion.index[cam.on]]
-        )
+        slip, turned = slip_of(scene, motion, follower)
         if cam.conjugate is not None or not slip or (cam.is_flat and not turned):
             raise StructureError(
                 Problem(
@@ -274,10 +273,32 @@ def cams_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
             bar = tip - pin_of(motion, cam.lever.pin)
             normal = 1j * bar / abs(bar)
         else:
-            guides = motion.loops.guides
-            normal = along_guide(motion, [guide.block for guide in guides].index(follower))
+            normal = along_guide(motion, guide_on(follower, cam.carrier, motion.loops.guides))
         centre = tip + 1j * slip / turned
         yield Touching(name, links, centre, normal)
+
+
+def slip_of(scene: Scene, motion: Motion, follower: str) -> tuple[complex, float]:
+    """The velocity of a follower's tip and its turning against its cam, by the cam's own motion.
+
+    That is the cam's turning against the carrier, or a plate's sliding on it, with the carrier at
+    rest.
+    """
+    cam, guides = scene.cams[follower], motion.loops.guides
+    lift = next(each for each in motion.loops.drives.lifts if each.law.follower == follower)
+    tip = pin_of(motion, cam.point)
+    place: Any
+    if cam.slides:
+        plate = guide_on(cam.on, cam.carrier, guides)
+        place, under, turned = motion.slides[0, :, plate], along_guide(motion, plate), 0.0
+    else:
+        seen = [motion.heading[:, motion.index[link]] for link in (cam.on, cam.carrier)]
+        place, under, turned = seen[0] / seen[1], 1j * (tip - pin_of(motion, cam.pivot)), 1.0
+    rate = float(np.ravel(lift.law.at(place, lift.numbers, lift.start).rate)[0])
+    if cam.lever is None:
+        way = along_guide(motion, guide_on(follower, cam.carrier, guides))
+        return rate * way - under, -turned
+    return rate * 1j * (tip - pin_of(motion, cam.lever.pin)) - under, rate - turned
 
 
 def guides_of(scene: Scene, motion: Motion) -> dict[str, int]:

@@ -489,6 +489,16 @@ def linear_solve(matrix: Reals, right: Reals) -> Reals:
     return np.asarray(np.linalg.pinv(matrix) @ right)
 
 
+def solve_each(matrix: Reals, right: Reals) -> Reals:
+    """Solve as ``linear_solve`` does, so that each equation holds to the rounding of its own terms.
+
+    Elimination mixes the equations, and a link at rest would turn by the rounding of the others.
+    One correction by what remains ends that: R. D. Skeel, Mathematics of Computation 35 (1980).
+    """
+    found = linear_solve(matrix, right)
+    return np.asarray(found + linear_solve(matrix, right - matrix @ found))
+
+
 def finite_rows(stack: Reals) -> Flags:
     """Where every number in a matrix of a stack is finite."""
     if len(stack) == 1:
@@ -544,7 +554,7 @@ def ratios_about(
     drivers = len(loops.drives.turns)
     by_driver = np.zeros((count, rows, drivers))
     by_driver[:, rows - drivers :, :] = -np.eye(drivers)
-    velocity = -linear_solve(jacobian, by_driver / sizes) * units
+    velocity = -solve_each(jacobian, by_driver / sizes) * units
     if not accelerations:
         return Ratios(velocity, np.full((count, columns, drivers, drivers), np.nan))
     curved = [
@@ -554,7 +564,7 @@ def ratios_about(
     ]
     if not curved:
         return Ratios(velocity, np.zeros((count, columns, 0, 0)))
-    acceleration = -linear_solve(jacobian, np.stack(curved, axis=-1) / sizes) * units
+    acceleration = -solve_each(jacobian, np.stack(curved, axis=-1) / sizes) * units
     return Ratios(velocity, acceleration.reshape(count, columns, drivers, drivers))
 
 

@@ -341,7 +341,7 @@ def narrowed(group: GroupOnWay, way: FollowedClosure, wide: Sequence[Bracket]) -
         grids = np.array([np.linspace(each.low, each.high, count + 1) for each in rest])
         inside = group.numbers(way, grids[:, 1:-1].ravel()).reshape(len(rest), count - 1)
         for each, at, numbers in zip(rest, grids, inside, strict=True):
-            found += within(group, each, at, numbers)
+            found += within(group, each._replace(pairs=None), at, numbers)
     return found
 
 

@@ -134,6 +134,8 @@ FEWER = 360
 
 This search serves a group that does not close where the scene is drawn.
 """
+FEWEST = 72
+"""FEWER where several links are tried at once, because each search then costs a hundredfold."""
 COARSE = 1 / 12
 """The longest step, in turns, where it is only asked whether a motion ends."""
 MOST_WAYS = 200
@@ -253,7 +255,7 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
 def others(course: Course, first: Path) -> list[Range]:
     """The ranges that the motion does not reach from the scene's position, in order."""
     sweep, turns = course.sweep, max(first.turns, 1)
-    count = FEWER if course.closers else GRID
+    count = (FEWEST if course.tries_several else FEWER) if course.closers else GRID
     step = (sweep.high - sweep.low) / count
     grid = sweep.low + (np.arange(count * turns) + 0.5) * step
     free = course.closes(grid)

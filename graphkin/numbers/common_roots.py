@@ -55,6 +55,8 @@ ONE_PLACE = 1e-5
 """Difference of shares below which they are one place then."""
 SHORTER = 8
 """Halvings of a step that leaves the drawable range or does not come nearer."""
+FEW = 1000
+"""So few places cost as much together as one alone."""
 STEP = 1e-6
 """Half the step of the differences for slopes, in radians or shares of a way."""
 NARROW = 1e-8
@@ -63,6 +65,8 @@ FLAT = 3.0
 """Distance of a cell from a flat dyad, in cell sizes, up to which it is examined there."""
 LEADING = 5
 """Secant steps that find the share for a v."""
+ROUNDED = 1e-14
+"""Step below which such a share is found, but for rounding."""
 STILL = 1e-10
 """Step at which Newton's method has converged, in radians or shares of a way."""
 CLOSED = 1e-9
@@ -200,16 +204,20 @@ def closed_in(
         found.append(which[rest])
         which, way = which[~rest], way[~rest]
         scale, waiting = ranges[row[which]], np.ones(which.size, dtype=bool)
-        for shorter in range(SHORTER):
-            left = np.flatnonzero(waiting)
-            if not left.size:
-                break
-            aim = share[which[left]] + way[left] / 2**shorter
-            there = missed(row[which[left]], aim)
-            nearer = far(there, scale[left]) < far(value[which[left]], scale[left])
-            took = left[nearer]
-            share[which[took]], value[which[took]] = aim[nearer], there[nearer]
-            waiting[took] = False
+        parts = 0.5 ** np.arange(SHORTER)
+        while parts.size and (left := np.flatnonzero(waiting)).size:
+            count = max(1, FEW // left.size)
+            some, parts = parts[:count], parts[count:]
+            aim = share[which[left]] + way[left] * some[:, None, None]
+            count = len(aim)
+            there = missed(np.tile(row[which[left]], count), aim.reshape(-1, aim.shape[-1]))
+            off = far(there, np.tile(scale[left], (count, 1))).reshape(count, -1)
+            nearer = off < far(value[which[left]], scale[left])
+            first = nearer.argmax(axis=0), np.arange(left.size)
+            took = nearer.any(axis=0)
+            share[which[left[took]]] = aim[first][took]
+            value[which[left[took]]] = there.reshape(aim.shape)[first][took]
+            waiting[left[took]] = False
         still = which[waiting]
         found.append(still[far(value[still], ranges[row[still]]) < CLOSED])
         which = which[~waiting]
@@ -313,7 +321,7 @@ class FlatDyad(NamedTuple):
             here = self.reach(own, at)
             for _ in range(LEADING):
                 way = (v * v - here) / rise
-                if not (abs(way) > 0).any():
+                if not (abs(way) > ROUNDED).any():
                     break
                 at[:, j] += way
                 before, here = here, self.reach(own, at)
@@ -350,7 +358,8 @@ def steps_of(missed: Misses, row: Array, share: Array, value: Array) -> Array:
         away = np.where(np.arange(size) == k, STEP, 0.0)
         there, way = missed(row, share + away), np.full(len(row), STEP)
         lost = ~np.isfinite(there).all(axis=1)
-        there[lost], way[lost] = missed(row[lost], share[lost] - away), -STEP
+        if lost.any():
+            there[lost], way[lost] = missed(row[lost], share[lost] - away), -STEP
         slope[:, :, k] = (there - value) / way[:, None]
     return solutions(slope, -value)
 

@@ -13,6 +13,7 @@ import pytest
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError, StructureError
+from tests.chance.forces import judged
 from tests.chosen import FOLDER, SCENES, shared
 from tests.laws.exact_forces import (
     DIGITS,
@@ -298,3 +299,15 @@ E = "right of B-D"
 @pytest.mark.parametrize("second", [2, 3, 4])
 def test_loads_on_a_pin_of_three_links_agree_on_whichever_link(first, second):
     assert far_from_exact(mechanism_of(THREE.format(first=first, second=second))) < ROUNDING
+
+
+ERRED = {
+    20091: "a cam at rest against the link that carries it, so that nothing slips",
+    20094: "a knife-edge cam on a block, which has one pin and is tried",
+}
+"""Seeds of ``python -m tests.chance.forces`` with ``every`` at which a route once erred."""
+
+
+@pytest.mark.parametrize("seed", ERRED)
+def test_random_mechanisms_have_their_forces_right(seed):
+    assert judged(seed, "every") == ("agree", "")

@@ -9,7 +9,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.quantities import PointMotion
 from graphkin.construction.core.solution import Solution
 from graphkin.loops.witness import compare
-from graphkin.mechanism import Mechanism
+from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
@@ -333,3 +333,15 @@ def test_no_digit_is_claimed_that_the_value_of_a_law_of_time_has_lost(law, time)
             assert error <= 10.0 ** -digits.get(quantity, 0), (name, quantity)
     if law in ("sum", "radians"):  # and no more are given up than the phase has taken
         assert digits["position"] >= 11 - np.log10(max(1800 * time, 1))
+
+
+@pytest.mark.parametrize("name", ["cam-tangent", "oldham", "bar-on-drive-roller"])
+def test_a_link_that_its_driver_turns_evenly_does_not_accelerate_in_the_loops(name):
+    """Elimination alone leaves it the rounding of the other equations, and costs two digits."""
+    mechanism = load(f"examples/scenes/{name}.toml")
+    solution = mechanism.solve()
+    motion = mechanism.check.examine(solution).solved.motion
+    (driver,) = mechanism.scene.drivers
+    k = motion.index[driver.link]
+    assert abs(motion.epsilon[0, k]) <= 1e-24 * motion.omega[0, k] ** 2
+    assert mechanism.witness(solution).digits["acceleration"] >= 12

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cache
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,14 +12,16 @@ from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import pieces_words
 from graphkin.construction.higher_class.closure_solver import Trying
+from graphkin.construction.higher_class.following import GroupOnWay
 from graphkin.construction.higher_class.trial_rates import Spread, best_of, enlarged
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.closures_followed import carried_about, numbers_at
+from graphkin.motion.closures_followed import carried, carried_about, changes, numbers_at
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
 from graphkin.motion.follower_limits import followers
 from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import Closure
+from graphkin.scene.read_scene import read_text
 from tests.scene_files import FOLDER
 
 
@@ -147,6 +150,23 @@ def test_numbers_between_a_few_searches_are_those_of_a_search_at_every_place():
     assert (np.diff(found) != 0).sum() >= 4
     assert len(group.searched) < len(grid)
     assert found.tolist() == fresh.numbers(way, grid).tolist()
+
+
+def test_a_bracket_that_is_cut_has_its_closures_paired_anew(monkeypatch):
+    """Pairs of the whole bracket lead nowhere in its parts: each part was searched on its own."""
+    text = (Path("examples/scenes/plates-ring.toml")).read_text(encoding="utf-8")
+    text = text.replace("O-A = 50", "O-A = 200").replace("angle = 255", "angle = 50")
+    scene = read_text(text.replace("closure 2", "closure 1"), "ring", None, {})
+    sweep = sweep_of(scene)
+    course = carried(Course(sweep, sweep.original.branches), 50.0, 25.0)
+    searched, closures = [], GroupOnWay.closures
+    monkeypatch.setattr(
+        GroupOnWay, "closures", lambda self, at: (searched.extend(at), closures(self, at))[1]
+    )
+    found = changes(course, 0, 25.0, 50.0)
+    assert [number for _, number in found] == [4, 2, 1]
+    assert [at for at, _ in found] == pytest.approx([25.0, 27.347645745, 38.605505478], abs=1e-7)
+    assert len(searched) < 20
 
 
 def test_a_ring_with_a_link_that_hardly_turns_is_followed_to_its_dead_points():

@@ -222,8 +222,8 @@ def sides_of(known: Mapping[str, Base], dyad: Dyad) -> tuple[str, str, list[tupl
 def held_base(scene: Scene, link: str, pair: Joint) -> Base:
     """The base of a link held by one pair: its pin and another point, or the guided point."""
     if isinstance(pair, Pin):
-        tip = next((p for p in scene.link(link).points if p != pair.point), None)
-        return base_of(scene, link, pair.point, tip)
+        own = (p for p in scene.link(link).points if p not in scene.cam_centres)
+        return base_of(scene, link, pair.point, next((p for p in own if p != pair.point), None))
     return led_base(scene, link, pair.led_point(scene, link), pair)
 
 

@@ -90,7 +90,9 @@ class GroupOnWay(Struct, frozen=True, dict=True):
 
     def begun(self, at: float, number: int) -> Reals | None:
         """The row of the closure with a given number at u; None where there is none."""
-        row = self.closures(np.array([at])).picked(number)[0][1:]
+        known = [array[0].item() for array in self.known(np.array([at]))]
+        with np.errstate(all="ignore"):
+            row = self.trying.closures_of(known).picked(number)[0][1:]
         return None if np.isnan(row).any() else row
 
     def followed(

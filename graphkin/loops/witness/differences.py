@@ -30,7 +30,7 @@ from graphkin.construction.core.quantities import (
 from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.loops.equations import Equations, Lift, equations
 from graphkin.loops.loop_motion import Motion
-from graphkin.loops.newton import LoopSolution, linear_solve
+from graphkin.loops.newton import LoopSolution, solve_each
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import RateBounds, Rounding, led, loads, straight, touching
 from graphkin.numbers.plane import Ratio, dot
@@ -78,7 +78,7 @@ def jerks(solved: LoopSolution) -> Jerks:
         jacobian = loops.scaled_jacobian(linear)
         right = -3 * loops.second(linear, rates, seconds) - loops.third(linear, rates)
         right[:, right.shape[1] - len(loops.drives.turns) :] += loops.drives.jerk
-        thirds = linear_solve(jacobian, (right / loops.rows)[:, :, None])[:, :, 0] * loops.columns
+        thirds = solve_each(jacobian, (right / loops.rows)[:, :, None])[:, :, 0] * loops.columns
         spin, slid = chains.split(thirds)
         origin = (linear.turned @ (1j * spin[:, 1:, None]) + linear.along @ slid[:, :, None])[
             ..., 0
