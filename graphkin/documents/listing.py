@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate, pairwise
+from itertools import accumulate, chain, pairwise
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
@@ -66,6 +66,41 @@ def first_part(
     lines = lined(wide[:said], narrow[:said], above)
     lines.append(("", drawing.words("page.goes_on" if said else "page.moved")))
     return written(lines, x, rows_of(y, leading, len(lines))), said
+
+
+def around_tables(
+    drawing: Drawing, left: Rect, below: Rect | None, part: tuple[list[Mark], int]
+) -> tuple[list[Mark], int]:
+    """The sentences in a column and on below the tables, and how many of them fit there.
+
+    A line at the end of the column says where they go on. ``part`` are the sentences that the
+    column holds by itself, which stay where the room below the tables is no help.
+    """
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    if below is None:
+        return part
+    sets = [
+        [flowed(words, " ", end - start - INDENT, HEIGHT) for words in said]
+        for start, _, end, _ in (left, below)
+    ]
+
+    def held(leading: float, low: float) -> tuple[list[Mark], int]:
+        columns = [(*left[:3], left[3] - leading), (*below[:3], below[3] - low)]
+        marks, after = filled(sets, columns, leading, 0)
+        ends = (mark.y for mark in marks if isinstance(mark, Text) and mark.x < below[0])
+        at = left[0] + INDENT, max(ends, default=left[1]) + leading
+        return [*marks, Text(*at, drawing.words("page.goes_below"), "caption", HEIGHT)], after
+
+    for leading in distances():
+        marks, after = held(leading, 0.0)
+        if after == len(said) and all(are_clear([*chain(*each)], HEIGHT, leading) for each in sets):
+            return marks, after
+    marks, after = held(PARTED, PARTED)
+    if after <= part[1]:
+        return part
+    ends = (mark.y for mark in marks if isinstance(mark, Text) and mark.x > below[0])
+    at = below[0] + INDENT, max(ends, default=below[1] - PARTED) + PARTED
+    return [*marks, Text(*at, drawing.words("page.goes_on"), "caption", HEIGHT)], after
 
 
 def rows_of(y: float, leading: float, count: int) -> list[float]:

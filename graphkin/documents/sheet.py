@@ -31,10 +31,10 @@ from graphkin.construction.drivers.driver_relations import driven_bars, plan_sca
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.links.mechanism_symbols import settle_in_plates
-from graphkin.construction.result_tables import tables
+from graphkin.construction.result_tables import COMPUTED, tables
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.detail import insets, parted
-from graphkin.documents.listing import first_part, listed
+from graphkin.documents.listing import around_tables, first_part, listed
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import flattest_line, sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
@@ -647,7 +647,12 @@ def title_line(
     ]
     end, y = paper.left[2], paper.area[1] + (9.5 if paper.lowered else 5.5)
     marks += check_bar(end - 106, y)
-    marks.append(Text(end - 109, y, words("page.check_bar"), "check-bar", 2.5, "end"))
+    said = words_of(words("page.check_bar"))
+    beside = flowed(said, " ", end - 109 - left, LETTERS)
+    marks += [
+        Text(end - 109, y + CLOSE * (i + 1 - len(beside)), line, "check-bar", LETTERS, "end")
+        for i, line in enumerate(beside)
+    ]
     if paper.is_parted:
         marks += [moved(mark, paper.across, 0) for mark in marks]
     return marks, left, data
@@ -798,16 +803,6 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     width = paper.writing - left - 2
     checks = [] if view == "task" else checked_lines(drawing, width)
     first = low + 0.4 - CLOSE * (len(checks) - 1)
-    if view == "key":
-        place = drawing, left, top + 10.5, width, first - 3.9
-        try:
-            listing = listed(*place)
-        except PageError:
-            listing, said = first_part(*place)
-            moved.add(Moved.CONSTRUCTION)
-        marks = [construction_head(drawing, left, top + 4.5), *listing]
-    else:
-        marks, moved = wanted(drawing, left, top)
     own = paper.empty_tables if view == "task" else paper.tables
     found, more = with_room(
         drawing,
@@ -816,6 +811,19 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         paper.tables[0],
         paper.tables[1] + 4.5,
     )
+    if view == "key":
+        place = drawing, left, top + 10.5, width, first - 3.9
+        try:
+            listing = listed(*place)
+        except PageError:
+            column = left, top + 10.5, min(left + width, paper.marked[0]), first - 3.9
+            free = below_tables(paper, found)
+            listing, said = around_tables(drawing, column, free, first_part(*place))
+            if said < len(sentences(drawing)):
+                moved.add(Moved.CONSTRUCTION)
+        marks = [construction_head(drawing, left, top + 4.5), *listing]
+    else:
+        marks, moved = wanted(drawing, left, top)
     marks += found
     moved |= more
     if view == "task":
@@ -825,6 +833,19 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         for i, text in enumerate(checks)
     ]
     return [*marks, *flattest_line(drawing, left + extent(checks[-1], LETTERS)[0])], moved, said
+
+
+def below_tables(paper: SheetPaper, found: Sequence[Mark]) -> Rect | None:
+    """The room for sentences between the tables and the title block, or the notes above it.
+
+    The top is the first baseline. None where there is no room for two lines.
+    """
+    notes = [mark.y - LEADING for mark in found if isinstance(mark, Text) and mark.name == COMPUTED]
+    ends = (reach(mark)[3] for mark in found if mark.name != COMPUTED)
+    top, low = max(ends, default=paper.tables[1]) + LEADING + 1, min(notes, default=paper.tables[3])
+    if low - 1 - top < LEADING:
+        return None
+    return paper.tables[0] + 2, top, paper.tables[2], low - 1
 
 
 def checked_lines(drawing: Drawing, width: float) -> list[str]:
