@@ -307,7 +307,7 @@ def overlay(drawing: Drawing, number: str) -> tuple[Page, ...]:
     mark the corners of the task sheet's frame, with crop marks outside them. The caption names the
     variant of the mechanism.
     """
-    layout = lowered(lay_out(drawing), sheet_heading(drawing, "task")[2])
+    layout = lowered(drawing.paper, lay_out(drawing), sheet_heading(drawing, "task")[2])
     words, paper = drawing.words, drawing.paper
     tasks = boards(drawing, layout, "task")
     labels = (label for task in tasks for label in task.labels)
