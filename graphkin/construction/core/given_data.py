@@ -516,7 +516,8 @@ class Datum(Struct, frozen=True):
     """One of the data as markup: a value with its ``name`` and a remark, or words alone.
 
     ``sign`` is printed between name and value. A rate may be ``constant`` and have a ``sense``,
-    which follows its name after a ``colon``. ``of`` is the printed quantity, ``parameters`` are the parameters that set it.
+    which follows its name after a ``colon``. ``of`` is the printed quantity, ``parameters`` are the
+    parameters that set it.
     """
 
     words: str = ""
