@@ -25,6 +25,8 @@ NUMBERS |= {"sides": (1, 2), "balance": (1, 2)}
 """The columns of numbers of each table; those before them name the row."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
+COMPUTED = "computed"
+"""The name of the notes on computed values."""
 LEADING = 3.9
 """Line spacing of the notes on computed values, in mm."""
 
@@ -142,7 +144,8 @@ def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
     some = column_tables(drawing, empty=empty)
     note = reasons(drawing, [row for table in some for row in table.rows], rect)
     low = rect[3] - LEADING * len(note)
-    return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty)]
+    corner = drawing.paper.code if empty else 0.0
+    return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty, corner=corner)]
 
 
 def tables_on_sheets(
@@ -201,6 +204,6 @@ def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
     lines = flowed(said, "; ", rect[2] - rect[0], HEIGHT)
     first = rect[3] - LEADING * (len(lines) - 1)
     return [
-        Text(rect[0], first + LEADING * i, line, "caption", HEIGHT, name="computed")
+        Text(rect[0], first + LEADING * i, line, "caption", HEIGHT, name=COMPUTED)
         for i, line in enumerate(lines)
     ]

@@ -15,7 +15,7 @@ from graphkin.construction.core.given_data import parameters
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.documents.relations import answers, in_results, relations
 from graphkin.documents.sheet import title_of
-from graphkin.drawing.field import A4_AREA, text_page
+from graphkin.drawing.field import A4_AREA, A4_SIZE, text_page
 from graphkin.drawing.frame import on_page, page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text, box
 from graphkin.drawing.richtext import (
@@ -145,6 +145,8 @@ INDENT = 3.0
 ROOM = RIGHT - LEFT - INDENT
 """The width of these lines, in mm."""
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
+HALF = A4_SIZE[1] / 2
+"""A page whose last line is higher is less than half full, in mm."""
 DOT = ". "
 BLANK = DOT * 13 + DOT[0]
 """The least room to write in, on the form to be filled in."""
@@ -283,8 +285,8 @@ def laid_out(
 ) -> list[list[tuple[float, CalculationRow]]]:
     """The lines on as few pages as possible, balanced between the pages.
 
-    Pages begin with a heading where that needs no extra page. Lines are spaced as widely as the
-    number of pages allows.
+    Pages begin with a heading where that needs no extra page and leaves none but the last less
+    than half full. Lines are spaced as widely as the number of pages allows.
     """
     count = len(paged(rows, LINE, bottom))
     some = SOLVED if solved else BY_HAND
@@ -295,12 +297,21 @@ def laid_out(
         parted = whole and not all(page[0][1].heading for page in pages)
         return None if parted or len(pages) > count else pages
 
-    whole = held(bottom, whole=True) is not None
-    low, high = TOP, bottom
-    while count > 1 and high - low > LINE:
-        middle = (low + high) / 2
-        low, high = (low, middle) if held(middle, whole=whole) else (middle, high)
-    return paged(rows, line, high, whole=whole)
+    def balanced(
+        found: list[list[tuple[float, CalculationRow]]], *, whole: bool
+    ) -> list[list[tuple[float, CalculationRow]]]:
+        low, high = TOP, bottom
+        while count > 1 and high - low > LINE:
+            middle = (low + high) / 2
+            less = held(middle, whole=whole)
+            low, high, found = (low, middle, less) if less else (middle, high, found)
+        return found
+
+    if whole := held(bottom, whole=True):
+        pages = balanced(whole, whole=True)
+        if all(page[-1][0] > HALF for page in pages[:-1]):
+            return pages
+    return balanced(paged(rows, line, bottom), whole=False)
 
 
 def paged(

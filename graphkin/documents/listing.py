@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate, pairwise
+from functools import lru_cache
+from itertools import accumulate, chain, pairwise
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.documents.sentences import sentences
@@ -18,6 +19,8 @@ SHORTER = (0.0, 4.0, 8.0, 12.0, 16.0)
 """Reductions of line width tried in mm, until no characters touch."""
 FINE = 0.05
 """Step in mm by which lines are set closer until they fit."""
+ROUNDING = 1e-6
+"""Tolerance of baselines, in mm."""
 PARTED = 4.6
 """Distance of the lines of a construction that continues on another sheet, in mm."""
 INDENT = 7.0
@@ -66,6 +69,40 @@ def first_part(
     lines = lined(wide[:said], narrow[:said], above)
     lines.append(("", drawing.words("page.goes_on" if said else "page.moved")))
     return written(lines, x, rows_of(y, leading, len(lines))), said
+
+
+def around_tables(
+    drawing: Drawing, left: Rect, below: Rect | None, part: tuple[list[Mark], int]
+) -> tuple[list[Mark], int]:
+    """The sentences in a column and on below the tables, and how many of them fit there.
+
+    A line at the end of the column says where they go on. ``part`` are the sentences that the
+    column holds by itself, which stay where the room below the tables is no help.
+    """
+    said = [words_of(sentence.markup) for sentence in sentences(drawing)]
+    if below is None:
+        return part
+    sets = [
+        [flowed(words, " ", end - start - INDENT, HEIGHT) for words in said]
+        for start, _, end, _ in (left, below)
+    ]
+
+    def held(leading: float, low: float) -> tuple[list[Mark], int]:
+        columns = [(*left[:3], left[3] - leading), (*below[:3], below[3] - low)]
+        marks, after = filled(sets, columns, leading, 0)
+        ends = (mark.y for mark in marks if isinstance(mark, Text) and mark.x < below[0])
+        at = left[0] + INDENT, max(ends, default=left[1]) + leading
+        return [*marks, Text(*at, drawing.words("page.goes_below"), "caption", HEIGHT)], after
+
+    if held(LEAST, 0.0)[1] == len(said):
+        every = (held(leading, 0.0) for leading in distances())
+        return next((marks, after) for marks, after in every if after == len(said))
+    marks, after = held(PARTED, PARTED)
+    if after <= part[1]:
+        return part
+    ends = (mark.y for mark in marks if isinstance(mark, Text) and mark.x > below[0])
+    at = below[0] + INDENT, max(ends, default=below[1] - PARTED) + PARTED
+    return [*marks, Text(*at, drawing.words("page.goes_on"), "caption", HEIGHT)], after
 
 
 def rows_of(y: float, leading: float, count: int) -> list[float]:
@@ -163,20 +200,41 @@ def filled(
     ``numbers`` are the labels of the sentences where sentences are divided.
     """
     marks: list[Mark] = []
-    place, y = 0, columns[0][1]
+    place, last = 0, list[tuple[float, str]]()
     for number in range(begun, len(sets[0])):
-        while y + (len(sets[place][number]) - 1) * leading > columns[place][3]:
-            place += 1
+        while True:
+            lines, (left, top, _, low) = sets[place][number], columns[place]
+            rows = rows_after(last, lines, top, leading)
+            if rows[-1] <= low + ROUNDING:
+                break
+            place, last = place + 1, []
             if place == len(columns):
                 return marks, number
-            y = columns[place][1]
-        x = columns[place][0]
         if number_text := numbers[number] if numbers else f"{number + 1}.":
-            marks.append(Text(x + 5, y, number_text, "caption", HEIGHT, "end"))
-        for line in sets[place][number]:
-            marks.append(Text(x + INDENT, y, line, "caption", HEIGHT))
-            y += leading
+            marks.append(Text(left + 5, rows[0], number_text, "caption", HEIGHT, "end"))
+        for y, line in zip(rows, lines, strict=True):
+            marks.append(Text(left + INDENT, y, line, "caption", HEIGHT))
+        last = [(rows[-1], lines[-1])]
     return marks, len(sets[0])
+
+
+def rows_after(
+    last: Sequence[tuple[float, str]], lines: Sequence[str], top: float, leading: float
+) -> list[float]:
+    """The baselines of lines below the ``last`` line of their column, or from its top on."""
+    rows: list[float] = []
+    for line in lines:
+        rows.append(last[0][0] + clear_gap(last[0][1], line, leading) if last else top)
+        last = [(rows[-1], line)]
+    return rows
+
+
+@lru_cache(maxsize=4096)
+def clear_gap(one: str, other: str, leading: float) -> float:
+    """The distance of two lines: the leading, or as much more as keeps their characters apart."""
+    wider = (gap for gap in sorted(distances()) if gap > leading)
+    gaps = chain([leading], wider)
+    return next((gap for gap in gaps if are_clear([one, other], HEIGHT, gap)), leading)
 
 
 def too_long(lines: int, hint: Message) -> PageError:

@@ -60,8 +60,9 @@ SIDE, ABOVE, BELOW = 8.0, 10.0, 6.0
 """Room around a plan in its cell for letters, and above it for its number, in mm."""
 SCALE = "scale"
 """The name of the scale of a plan that is drawn smaller than the others."""
-GROWN = 3.0
-"""The largest plan that decides the scale of all, in median plans."""
+GROWN, ALONE = 3.0, 1.5
+"""The largest plan that decides the scale of all, in median plans, and in plans of the next size.
+"""
 LEAST = 28.0
 """Least width and height of a cell in mm."""
 DOT, SMALL = 0.7, 0.5
@@ -221,8 +222,14 @@ class PlanGrid(Struct, frozen=True):
 
 
 def usual(boxes: Sequence[Extent]) -> list[Extent]:
-    """The plans that decide the scale: not those that grow without bound next to a dead point."""
-    most = GROWN * float(np.median([box.diagonal for box in boxes]))
+    """The plans that decide the scale: not those that grow without bound next to a dead point.
+
+    A single plan does not make all others small, either.
+    """
+    sizes = sorted(box.diagonal for box in boxes)
+    most = GROWN * float(np.median(sizes))
+    if len(sizes) > 2 and ALONE * sizes[-2] < sizes[-1]:
+        most = min(most, sizes[-2])
     return [box for box in boxes if box.diagonal <= most] or list(boxes)
 
 

@@ -57,7 +57,7 @@ from graphkin.drawing.marks import (
     reach,
     style_class,
 )
-from graphkin.drawing.richtext import flowed
+from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.scale import Extent, Scales, preferred_scales
 from graphkin.drawing.shapes import Array, struck
 from graphkin.drawing.symbol_markup import escape, symbol
@@ -530,13 +530,13 @@ def dimension(
 # --- the places of the driver in a table ----------------------------------------------------------
 
 
-ROW, FIRST = 4.6, 26.0
-"""Height of a row and width of its head, in mm."""
+ROW, FIRST, PAD = 4.6, 26.0, 1.4
+"""Height of a row, width of its head, and least padding of a cell, in mm."""
 IN_ROW = 16
 """The most positions in one row of the table, where there is room for all rows."""
 CLOSE = (3.1, 0.5)
 """Height of a row and distance of pairs of rows in a table of many positions, in mm."""
-PROOF = 3.2
+PROOF = 4.0
 """Room for the sentence of the residual check at the foot, in mm."""
 
 
@@ -555,13 +555,14 @@ def places_table(
         head_of = f"{name} ({unit})"
     names, values = [each.name for each in some], numbers_of(found)
     lines = flowed(said, "; ", right - left, 2.5)
-    count = -(-len(names) // IN_ROW)
+    widest = PAD + max(extent(each, 2.5)[0] for each in (*names, *values))
+    count = -(-len(names) // min(IN_ROW, int((right - left - FIRST) / widest)))
     room = foot - PROOF - top - 4.2 * len(lines)
     own, gap = (ROW, 1.5) if count * (2 * ROW + 1.5) <= room else CLOSE
     count = min(count, max(int(room / (2 * own + gap)), 1))
     per = -(-len(names) // count)
     width = (right - left - FIRST) / per
-    small = width <= 11 or own < ROW
+    small = width < widest or own < ROW
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
         begin = top + k * (2 * own + gap)

@@ -9,7 +9,7 @@ A vector that is computed and laid off, not found by a crossing, is given with i
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import combinations
 from operator import truediv
 
@@ -213,7 +213,20 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
     lengths = of_lengths(first, [ends for ends in used if ends not in after])
     found = [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
-    return [(name, [in_results(first, each) for each in some]) for name, some in found]
+    return [(name, [in_results(first, each) for each in some]) for name, some in once(found)]
+
+
+def once(sections: Iterable[Section]) -> Iterator[Section]:
+    """The sections without the numbered relations that an earlier line already has."""
+    said = set[tuple[str, str, str]]()
+    for name, some in sections:
+        kept = []
+        for each in some:
+            key = each.left, each.symbols, each.result
+            if not each.result or key not in said:
+                kept.append(each)
+            said.add(key)
+        yield name, kept
 
 
 def in_results(drawing: Drawing, relation: Relation) -> Relation:

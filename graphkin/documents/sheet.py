@@ -31,10 +31,10 @@ from graphkin.construction.drivers.driver_relations import driven_bars, plan_sca
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.links.mechanism_symbols import settle_in_plates
-from graphkin.construction.result_tables import tables
+from graphkin.construction.result_tables import COMPUTED, tables
 from graphkin.construction.velocity.turned_velocity import TurnedVelocity
 from graphkin.documents.detail import insets, parted
-from graphkin.documents.listing import first_part, listed
+from graphkin.documents.listing import around_tables, first_part, listed
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sentences import flattest_line, sentences
 from graphkin.documents.signs import mechanism_signs, plan_signs
@@ -74,10 +74,10 @@ BLANK = ". . . . . . . . ."
 """Room to write in for values that a task does not reveal."""
 HEADING = "heading"
 """The name of the lines of captions."""
-LOOKS = ((3.5, 1), (2.5, 1), (2.5, 2))
-"""Heights of captions in mm with their largest number of lines; the first that fits is used."""
+CAPTION, ROWS = 2.5, 2
+"""Height of captions in mm, and the most lines of one."""
 LEAST = 1.8
-"""Height in mm of the letters where none of these fits."""
+"""Height in mm of the letters where more lines are needed."""
 CAPTION_LEADING = 1.4
 """Distance of the lines of a caption, in heights of its letters."""
 FOOT = 2.2
@@ -97,7 +97,8 @@ def headlines(drawing: Drawing, layout: Layout, view: str) -> tuple[list[Mark], 
     every = [*own, *(said for kind in others(drawing) for said in said_above(drawing, kind, view))]
     rects = layout.mechanism.rect, layout.plan.rect
     both = [(said, rects[i % 2]) for i, said in enumerate(every)]
-    height = next((h for h, most in LOOKS if all(len(lines(*x, h)) <= most for x in both)), LEAST)
+    fits = all(len(lines(*each, CAPTION)) <= ROWS for each in both)
+    height = CAPTION if fits else LEAST
     above = [caption(said, rect, height) if said else [] for said, rect in both[:2]]
     return above[0], above[1]
 
@@ -110,13 +111,15 @@ def others(drawing: Drawing) -> list[str]:
 
 
 def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
-    """The captions of a mechanism and of a kind of plan next to it, which may be missing."""
+    """The captions of a mechanism and of a kind of plan next to it, which may be missing.
+
+    A task leaves a factor open unless it states the factor itself.
+    """
     words, scales, task = drawing.words, drawing.scales, view == "task"
     if kind == FORCE:
         fields = {"scale": words.decimal(scales.words), "kL": length_scale(drawing)}
-        k = BLANK if task else figure(drawing, scales.kF / 1000)
         above = words("page.loads_heading", **fields | ({"kL": BLANK} if task else {}))
-        return above, words("page.force_heading", k=k)
+        return above, words("page.force_heading", k=figure(drawing, scales.kF / 1000))
     beside = beside_plan(drawing, kind) if kind else ""
     kL = f"{BLANK if task else length_scale(drawing)} {words.unit('m/mm')}" + (
         f"; {beside}" if beside else ""
@@ -124,7 +127,8 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     if not kind:
         return mechanism, ""
-    k = BLANK if task else figure(drawing, scale_of(drawing, PLANES[kind]) / 1000)
+    sought = task and dict(zip(SHEETS, plan_scales(drawing), strict=True))[kind].symbols
+    k = BLANK if sought else figure(drawing, scale_of(drawing, PLANES[kind]) / 1000)
     return mechanism, words(f"page.{kind}_heading", k=k)
 
 
@@ -133,7 +137,7 @@ def plan_enlarged(drawing: Drawing, rect: Rect, times: float) -> list[Mark]:
     words, factor = drawing.words, scale_of(drawing, drawing.plane) / 1000
     said = words(f"page.{drawing.kind}_heading", k=figure(drawing, factor / times))
     larger = "" if times == 1 else words("page.as_large", m=figure(drawing, times))
-    return caption(f"{said}  {words('page.with_trials')}{larger}", rect, LOOKS[1][0])
+    return caption(f"{said}  {words('page.with_trials')}{larger}", rect, CAPTION)
 
 
 def lines(said: str, rect: Rect, height: float) -> list[str]:
@@ -190,6 +194,8 @@ AIR = 1.0
 SHORTER = (0.0, *range(4, 49, 4))
 """Reductions of line width tried in mm, until no characters touch."""
 
+TITLE = 3.5
+"""Height of the letters of a title, in mm."""
 UNDER = 7.2
 """Distance of the lowest line from the fields in mm: captions, in two lines if necessary."""
 
@@ -450,7 +456,7 @@ def sheet(
 ) -> tuple[Page, ...]:
     """The pages of a sheet: the complete key, or the task without any result."""
     written = written or writing(drawing, view)
-    layout = lowered(layout or lay_out(drawing), written.more)
+    layout = lowered(drawing.paper, layout or lay_out(drawing), written.more)
     (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, view))
     if view != "task":
         detail += insets(drawing, layout.mechanism, [*left, *detail])
@@ -607,10 +613,13 @@ def sheet_heading(drawing: Drawing, view: str = "key") -> tuple[list[Mark], set[
 def spare_above(drawing: Drawing) -> float:
     """The height in mm by which the fields' upper edges may be lowered without cutting the key.
 
+    On leaves it is that of the mechanism's field, since the data are above it alone.
+
     Guides and lines without end, which extend to the edges, are not counted.
     """
     layout, paper = lay_out(drawing), drawing.paper
-    both = left_board(drawing, layout, "key"), right_board(drawing, layout, "key")
+    both = [left_board(drawing, layout, "key")]
+    both += [] if paper.is_parted else [right_board(drawing, layout, "key")]
     tops = (reach(mark)[1] for board in both for mark in board.marks if mark.name != HEADING)
     drawn = (top for top in tops if top > paper.fields[1] + CUT + 0.5)
     above = min(drawn, default=paper.foot) - CUT - paper.fields[1]
@@ -622,22 +631,20 @@ def title_line(
 ) -> tuple[list[Mark], float, float]:
     """The sheet's title, the bar that checks the print, and the place where the data may begin.
 
-    Velocity and acceleration sheets have titles of one height with equally many lines. A title has
-    one line, or two of small lettering that stay clear of the frame and the data. A continuation
-    sheet, with a ``remark``, has room for two lines of larger lettering. A sheet may be ``named``
-    otherwise than after its plan.
+    Velocity and acceleration sheets have titles with equally many lines. A title has one line, or
+    two of small lettering that stay clear of the frame and the data. A continuation sheet, with a
+    ``remark``, has room for two lines of the usual lettering. A sheet may be ``named`` otherwise
+    than after its plan.
     """
     words, paper = drawing.words, drawing.paper
     left, top, most_wide = paper.fields[0] + 2, paper.area[1] + paper.lowered, paper.title
     kinds = dict.fromkeys((name_of_sheet(drawing), "velocity", "acceleration"))
     called = [named] if named else [words(f"sheet.{kind}") for kind in kinds]
     name, *others = (f"{each} – {title_of(drawing)}{remark}" for each in called)
-    lines, height, rows = [escape(name)], 5.0, 1
-    longest = max((name, *others), key=lambda each: extent(escape(each), height)[0])
-    if extent(escape(longest), height)[0] > most_wide:
-        most = ((3.5, 2 if remark else 1), (2.5, 2))
-        height = next((h for h, few in most if len(wrapped(longest, most_wide, h)) <= few), 1.8)
-        lines, rows = wrapped(name, most_wide, height), len(wrapped(longest, most_wide, height))
+    longest = max((name, *others), key=lambda each: extent(escape(each), TITLE)[0])
+    most = ((TITLE, 2 if remark else 1), (LETTERS, 2))
+    height = next((h for h, few in most if len(wrapped(longest, most_wide, h)) <= few), LEAST)
+    lines, rows = wrapped(name, most_wide, height), len(wrapped(longest, most_wide, height))
     low, data = top + 7.6, top + 12.4
     if rows > 1:
         low, data = (top + 12.5, top + 18.0) if remark else (top + 8.6, top + 13.4)
@@ -647,7 +654,12 @@ def title_line(
     ]
     end, y = paper.left[2], paper.area[1] + (9.5 if paper.lowered else 5.5)
     marks += check_bar(end - 106, y)
-    marks.append(Text(end - 109, y, words("page.check_bar"), "check-bar", 2.5, "end"))
+    said = words_of(words("page.check_bar"))
+    beside = flowed(said, " ", end - 109 - left, LETTERS)
+    marks += [
+        Text(end - 109, y + CLOSE * (i + 1 - len(beside)), line, "check-bar", LETTERS, "end")
+        for i, line in enumerate(beside)
+    ]
     if paper.is_parted:
         marks += [moved(mark, paper.across, 0) for mark in marks]
     return marks, left, data
@@ -798,16 +810,6 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     width = paper.writing - left - 2
     checks = [] if view == "task" else checked_lines(drawing, width)
     first = low + 0.4 - CLOSE * (len(checks) - 1)
-    if view == "key":
-        place = drawing, left, top + 10.5, width, first - 3.9
-        try:
-            listing = listed(*place)
-        except PageError:
-            listing, said = first_part(*place)
-            moved.add(Moved.CONSTRUCTION)
-        marks = [construction_head(drawing, left, top + 4.5), *listing]
-    else:
-        marks, moved = wanted(drawing, left, top)
     own = paper.empty_tables if view == "task" else paper.tables
     found, more = with_room(
         drawing,
@@ -816,6 +818,19 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         paper.tables[0],
         paper.tables[1] + 4.5,
     )
+    if view == "key":
+        place = drawing, left, top + 10.5, width, first - 3.9
+        try:
+            listing = listed(*place)
+        except PageError:
+            column = left, top + 10.5, min(left + width, paper.marked[0]), first - 3.9
+            free = below_tables(paper, found)
+            listing, said = around_tables(drawing, column, free, first_part(*place))
+            if said < len(sentences(drawing)):
+                moved.add(Moved.CONSTRUCTION)
+        marks = [construction_head(drawing, left, top + 4.5), *listing]
+    else:
+        marks, moved = wanted(drawing, left, top)
     marks += found
     moved |= more
     if view == "task":
@@ -825,6 +840,19 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         for i, text in enumerate(checks)
     ]
     return [*marks, *flattest_line(drawing, left + extent(checks[-1], LETTERS)[0])], moved, said
+
+
+def below_tables(paper: SheetPaper, found: Sequence[Mark]) -> Rect | None:
+    """The room for sentences between the tables and the title block, or the notes above it.
+
+    The top is the first baseline. None where there is no room for two lines.
+    """
+    notes = [mark.y - LEADING for mark in found if isinstance(mark, Text) and mark.name == COMPUTED]
+    ends = (reach(mark)[3] for mark in found if mark.name != COMPUTED)
+    top, low = max(ends, default=paper.tables[1]) + LEADING + 1, min(notes, default=paper.tables[3])
+    if low - 1 - top < LEADING:
+        return None
+    return paper.tables[0] + 2, top, paper.tables[2], low - 1
 
 
 def checked_lines(drawing: Drawing, width: float) -> list[str]:

@@ -59,6 +59,7 @@ from graphkin.drawing.scale import Scales
 from graphkin.drawing.style import BARE, TINTS, style_of
 from graphkin.mechanism import Mechanism
 from graphkin.motion.motion_curves import curves_of
+from graphkin.scene.house import FRAMES
 from graphkin.scene.model import Scene
 from graphkin.text import LANGUAGES, Words, words
 from graphkin.text.errors import (
@@ -155,15 +156,15 @@ def drawn_sheets(drawings: Sequence[Drawing], view: str) -> list[SheetDocument]:
         from graphkin.documents.sheet import sheet, writing
 
         every = [(drawing, writing(drawing, view)) for drawing in drawings]
-        more = [rest(drawing, view, written.moved, written.said) for drawing, written in every]
-        total = sum(1 + len(sheets) for sheets in more)
+        more = [continued(drawing, view, own.moved, own.said) for drawing, own in every]
+        total = sum(1 + len(sheets) for _, sheets in more)
         found, number = [], 0
-        for (drawing, written), sheets in zip(every, more, strict=True):
+        for (drawing, written), (later, sheets) in zip(every, more, strict=True):
             number += 1
             pages = [*sheet(drawing, view, f"{number}/{total}", written=written)]
             for marks in sheets:
                 number += 1
-                pages += as_pages(drawing, view, f"{number}/{total}", marks)
+                pages += as_pages(later, view, f"{number}/{total}", marks)
             found.append(SheetDocument(drawing.kind, tuple(pages)))
         return found
     total = len(drawings)
@@ -180,7 +181,8 @@ def by_itself(drawing: Drawing, view: str, number: str) -> tuple[Page, ...]:
         from graphkin.documents.step_pages import growing
 
         moved = frozenset(sheet_heading(drawing)[1])
-        more = (as_pages(drawing, view, number, marks) for marks in rest(drawing, view, moved))
+        later, sheets = continued(drawing, view, moved)
+        more = (as_pages(later, view, number, marks) for marks in sheets)
         return (*growing(drawing, number), *chain.from_iterable(more))
 
     return overlay(drawing, number)
@@ -305,7 +307,7 @@ def overlay(drawing: Drawing, number: str) -> tuple[Page, ...]:
     mark the corners of the task sheet's frame, with crop marks outside them. The caption names the
     variant of the mechanism.
     """
-    layout = lowered(lay_out(drawing), sheet_heading(drawing, "task")[2])
+    layout = lowered(drawing.paper, lay_out(drawing), sheet_heading(drawing, "task")[2])
     words, paper = drawing.words, drawing.paper
     tasks = boards(drawing, layout, "task")
     labels = (label for task in tasks for label in task.labels)
@@ -361,8 +363,29 @@ INSIDE = 3.0
 """Clearance of tables and sentence numbers from the centring mark at the left, in mm."""
 TIMES = (2.0, 1.5, 1.25, 1.0)
 """Possible enlargements of a plan that is drawn again."""
+SMALLER = "A4"
+"""The paper of a continuation that is no longer than one of its pages."""
 LEAST = 60.0
 """Least room below the data in which tables that need more sheets begin, in mm."""
+
+
+def continued(
+    drawing: Drawing, view: str, moved: Set[Moved], said: int = 0
+) -> tuple[Drawing, list[list[Mark]]]:
+    """The continuation sheets, and the drawing on their paper.
+
+    One A4 page where that is enough, in the frame of the sheet; else sheets of its size.
+    """
+    sheet = drawing.scene.sheet
+    paper = drawing.paper
+    larger = paper.frame.name in FRAMES and paper.name != SMALLER
+    if moved and larger and Moved.AUXILIARY not in moved:
+        smaller = replace(sheet, paper=SMALLER)
+        own = replace(drawing, scene=replace(drawing.scene, sheet=smaller))
+        sheets = rest(own, view, moved, said)
+        if len(sheets) == 1 and len(as_pages(own, view, "1/1", sheets[0])) == 1:
+            return own, sheets
+    return drawing, rest(drawing, view, moved, said)
 
 
 def rest(drawing: Drawing, view: str, moved: Set[Moved], said: int = 0) -> list[list[Mark]]:

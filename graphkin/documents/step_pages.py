@@ -401,7 +401,7 @@ def growing(drawing: Drawing, number: str) -> tuple[Page, ...]:
     mark and letter has the place that it has on the finished sheet.
     """
     head, _, more = sheet_heading(drawing)
-    layout = lowered(lay_out(drawing), more)
+    layout = lowered(drawing.paper, lay_out(drawing), more)
     said = sentences(drawing)
     staged = stages(drawing, said)
     (left, detail, _), (right, other, _) = parted(*boards(drawing, layout, "key", said))

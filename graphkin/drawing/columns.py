@@ -48,7 +48,7 @@ Indices of indices fit below them in higher rows.
 """
 LOOKS = tuple(Look(*low, part) for low in ((4.7, 3.2), (5.3, 3.5), (4.2, 3.0)) for part in PARTS)
 """Looks of tables, from ample space to less and less."""
-BY_HAND = tuple(Look(7.0, 4.5, part, 5.3) for part in (1.45, 1.3, 1.15, 1.0))
+BY_HAND = tuple(Look(7.0, 4.5, part, 5.3) for part in (1.45, 1.3, 1.15, 1.0, 0.95, 0.9))
 """Looks of tables to be filled in by hand."""
 NUMBER = re.compile(r"(\(?[−<\s\d]+)(.*)", re.DOTALL)
 """A number in a cell: the part before its decimal mark, and the rest."""
@@ -172,16 +172,24 @@ def heads(x: float, baseline: float, widths: Sequence[float], row: Row) -> Itera
         x += width
 
 
-def laid_out(tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False) -> list[Mark]:
+def laid_out(
+    tables: Sequence[ColumnTable], rect: Rect, *, by_hand: bool = False, corner: float = 0.0
+) -> list[Mark]:
     """The tables in a rectangle, as large as they fit; ``by_hand`` leaves space to write.
 
-    Raises PageError where no look fits.
+    A square of side ``corner`` (mm) at the lower right stays free. Raises PageError where no look
+    fits.
     """
     left, top, right, low = rect
     for look in looks_of(tables, by_hand=by_hand):
         columns = in_columns(tables, look, low - top)
         wide = [max(sum(table.columns(look)) for table in column) for column in columns]
-        if sum(wide) + BETWEEN * (len(wide) - 1) > right - left + 1e-9:
+        ends = [left + sum(wide[: n + 1]) + BETWEEN * n for n in range(len(wide))]
+        if ends and ends[-1] > right + 1e-9:
+            continue
+        feet = (top + look.row * filled(column, look) for column in columns)
+        beyond = (end > right - corner + 1e-9 for end in ends)
+        if any(aside and foot > low - corner for aside, foot in zip(beyond, feet, strict=True)):
             continue
         if not all(table.fits(look) for table in tables):
             continue
@@ -247,6 +255,11 @@ def side_by_side(
             y += (table.lines(look) + APART) * look.row
 
 
+def filled(column: Sequence[ColumnTable], look: Look) -> float:
+    """The height of stacked tables in rows of a look."""
+    return sum(table.lines(look) for table in column) + APART * (len(column) - 1)
+
+
 def in_columns(tables: Sequence[ColumnTable], look: Look, height: float) -> list[list[ColumnTable]]:
     """The tables arranged in columns of a height in mm; long tables are split into blocks."""
     columns: list[list[ColumnTable]] = []
@@ -256,7 +269,7 @@ def in_columns(tables: Sequence[ColumnTable], look: Look, height: float) -> list
             free = (
                 column
                 for column in reversed([] if table.beside and len(columns) == 1 else columns)
-                if sum(above.lines(look) + APART for above in column) + block.lines(look) <= lines
+                if filled(column, look) + APART + block.lines(look) <= lines
             )
             column = next(free, None)
             if column is None:

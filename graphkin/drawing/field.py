@@ -256,10 +256,15 @@ class SheetPaper(Struct, frozen=True, dict=True):
     def empty_tables(self) -> Rect:
         """The tables of a task, close to the lines around them: their rows are as high as possible.
 
-        On a leaf they leave room for the square with the code.
+        On a leaf they leave room for the square with the code at the lower right.
         """
         left, top, right, low = self.tables
-        return left, top - 0.5, right - (CODE if self.is_leaf else 0), low + 0.5
+        return left, top - 0.5, right, low + 0.5
+
+    @property
+    def code(self) -> float:
+        """The side of the square with the code, in mm, that the tables of a task leave free."""
+        return CODE if self.is_leaf else 0.0
 
     @cached_property
     def title(self) -> float:

@@ -72,7 +72,9 @@ def latex(markup: str) -> str:
     return found
 
 
-NUMBERS = re.compile(r"[^\W\d_]+(?:/[^\W\d_]+)*|[\W\d_]+")
+LISTED = r"(?<=\d)(?:, | ?: | \()"
+"""What follows a number in a list: a comma, a colon, or a bracket after a space."""
+NUMBERS = re.compile(rf"[^\W\d_]+(?:/[^\W\d_]+)*|{LISTED}|(?:(?!{LISTED})[\W\d_])+")
 """Words of letters, and what is between them."""
 SUMS = re.compile(r"[\d=+−·÷×≈≡⊥∥±√<>′″‴]")
 """The characters by which text between words is mathematics."""

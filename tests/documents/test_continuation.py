@@ -10,6 +10,7 @@ from graphkin.documents.listing import on_sheets
 from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import Moved, data
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out, proved, rest
+from graphkin.drawing.field import A4_SIZE, paper_of
 from graphkin.drawing.marks import Text, reach
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
@@ -180,6 +181,22 @@ def drawings_for(dyads: int):
 @cache
 def rings(language: str):
     return hand_out(load(str(SCENES / "plates-ring.toml")), "key", language)
+
+
+@pytest.mark.parametrize("name", ["gears-ravigneaux", "hoist-differential", "link-motion"])
+def test_what_fills_no_large_sheet_goes_on_on_a4(name):
+    """A continuation is one A4 page where that is enough; its text stays in the frame of A4."""
+    left, _, right, low = paper_of("A4", "ISO").leaf.area
+    some = hand_out(load(str(SCENES / f"{name}.toml")))
+    pages = [page for sheet in some for page in sheet.pages[1:]]
+    later = [page for page in pages if any(mark.name == "sheet" for mark in page.marks)]
+    assert later
+    for page in later:
+        assert (page.width, page.height) == A4_SIZE
+        for mark in page.marks:
+            if isinstance(mark, Text) and mark.cls == "caption":
+                x1, _, x2, y2 = reach(mark)
+                assert left <= x1 and x2 <= right and y2 <= low
 
 
 @pytest.mark.parametrize("kind", [0, 1])

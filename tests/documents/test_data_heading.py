@@ -86,7 +86,7 @@ def test_long_data_stand_on_the_sheet_where_the_drawings_leave_room_or_on_the_ne
 def test_fields_that_are_lowered_leave_as_much_room_above_drawings_as_any_has(which):
     for drawing in drawings(*which):
         layout, more = lay_out(drawing), writing(drawing, "key").more
-        fields = lowered(layout, more)
+        fields = lowered(drawing.paper, layout, more)
         for field, old in ((fields.mechanism, layout.mechanism), (fields.plan, layout.plan)):
             assert (field.at, field.mm, field.middle) == (old.at, old.mm, old.middle)
         metres, top = drawing.scales.metres(drawing.kind), fields.plan.rect[1]

@@ -15,12 +15,13 @@ from graphkin.classroom.roster.students import Student, Taker
 from graphkin.construction.core.layout import lay_out
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, hand_out, language_of, proved
-from graphkin.drawing.field import A3, paper_of
+from graphkin.drawing.field import A3, CODE, paper_of
 from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of, title_block_marks
 from graphkin.drawing.marks import LineMark, Polyline, Text, reach
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.house import FRAMES, PAPERS, house_of
 from graphkin.scene.read_scene import read_scene, read_text
+from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import HouseError, SceneError
 from graphkin.writers.pdf import write_pdf
 from graphkin.writers.svg import write_svg
@@ -68,6 +69,38 @@ def test_every_view_is_drawn_on_every_paper_within_its_frame(paper: str, view: s
             x1, y1, x2, y2 = reach(mark)
             assert left <= x1 + 0.01 and x2 <= right + 0.01, mark
             assert top <= y1 + 0.01 and y2 <= low + 0.01, mark
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_leaf_holds_its_texts_in_every_language(language: str) -> None:
+    left, top, right, low = paper_of("A4", "ISO").leaf.area
+    for part in hand_out(on("A4"), "task", language)[:2]:
+        for page in part.pages:
+            for mark in page.marks:
+                if isinstance(mark, Text) and mark.cls.split()[0] not in OUTSIDE:
+                    x1, y1, x2, y2 = reach(mark)
+                    assert left <= x1 and x2 <= right and top <= y1 and y2 <= low, mark.markup
+
+
+@pytest.mark.parametrize("name", ["pump", "slotted-lever"])
+def test_the_tables_of_a_task_on_a4_are_beside_its_code(name: str) -> None:
+    """No sheet to draw on is continued for its tables alone, and rows to fill in are 7 mm high."""
+    for part in hand_out(on("A4", name), "task", "fr")[:2]:
+        assert len(part.pages) == 2
+        heads = [m for m in part.pages[1].marks if isinstance(m, Polyline) and m.cls == "shade"]
+        assert len(heads) >= 2
+        corner = part.pages[1].width - 12 - CODE, paper_of("A4", "ISO").blocks[0][1] - 1 - CODE
+        lines = [m for m in part.pages[1].marks if isinstance(m, LineMark) and m.cls == "panel"]
+        assert not any(reach(m)[2] > corner[0] and reach(m)[3] > corner[1] for m in lines[1:])
+
+
+def test_a_construction_on_a4_goes_on_below_the_tables() -> None:
+    part = hand_out(on("A4"), "key", "ro")[0]
+    said = [[m.markup for m in page.marks if isinstance(m, Text)] for page in part.pages]
+    numbers = [[line for line in lines if re.fullmatch(r"\d+\.", line)] for lines in said]
+    assert words("ro")("page.goes_below") in said[0]
+    assert len(said) == 2 and numbers[1]
+    assert [*numbers[0], *numbers[1]] == [f"{i}." for i in range(1, 11)]
 
 
 @pytest.mark.parametrize("paper", PAPERS)

@@ -11,8 +11,10 @@ from math import cos, hypot, radians, sin, sqrt
 import pytest
 from msgspec.structs import replace
 
+from graphkin.documents.positions_plans import usual
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
+from graphkin.drawing.scale import Extent
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.equal_positions import equal_places
@@ -227,6 +229,12 @@ def test_the_longest_plan_decides_one_scale_for_all():
     at = circles(sheets("shaper")["velocity"])
     lengths = [abs(at[f"a_{i}"] - at[f"o_{i}"]) for i in range(12)]
     assert lengths == pytest.approx([lengths[0]] * 12, rel=1e-9)
+
+
+@pytest.mark.parametrize(("sizes", "deciding"), [((1, 1, 1, 1.6), 3), ((1, 1, 1.6, 1.6), 4)])
+def test_one_plan_alone_does_not_make_all_others_small(sizes, deciding):
+    boxes = [Extent(0.0, 0.0, size, 0.0) for size in sizes]
+    assert usual(boxes) == boxes[:deciding]
 
 
 SCENE = """

@@ -37,6 +37,8 @@ def formulas(text: str) -> Iterator[str]:
         ("*B*″_{BA}", r"$B_{\mathrm{BA}}^{\prime\prime}$"),
         (r"fifty % & more\_", r"fifty \% \& more\_"),
         ("the *x* axis", "the $x$ axis"),
+        ("1: links 2, 3 (RRR)", "$1$: links $ 2$, $3$ (RRR$)$"),
+        ("2 : membre 1", "$2$ : membre $ 1$"),
     ],
 )
 def test_markup_is_text_with_mathematics(markup: str, expected: str) -> None:

@@ -18,8 +18,9 @@ def words_in(text: str) -> frozenset[str]:
 
 
 SIGNS = {
-    +1: "+ +1 1 ↺ ⟲ ↶ plus piu pos poz positive positiv positivo positiva pozitiv pozitiva",
-    -1: "- -1 ↻ ⟳ ↷ minus meno neg negative negativ negativo negativa",
+    +1: "+ +1 1 ↺ ⟲ ↶ plus piu pos poz positive positiv positivo positiva pozitiv pozitiva"
+    " positif положительно",
+    -1: "- -1 ↻ ⟳ ↷ minus meno neg negative negativ negativo negativa negatif отрицательно",
 }
 """The ways to write a sense of anything: counter-clockwise and along a guide are positive."""
 TURNED = {

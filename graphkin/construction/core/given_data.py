@@ -515,8 +515,9 @@ def closures(drawing: Drawing) -> Iterator[str]:
 class Datum(Struct, frozen=True):
     """One of the data as markup: a value with its ``name`` and a remark, or words alone.
 
-    ``sign`` is printed between name and value. A rate may be ``constant`` and have a ``sense``.
-    ``of`` is the printed quantity, ``parameters`` are the parameters that set it.
+    ``sign`` is printed between name and value. A rate may be ``constant`` and have a ``sense``,
+    which follows its name after a ``colon``. ``of`` is the printed quantity, ``parameters`` are the
+    parameters that set it.
     """
 
     words: str = ""
@@ -525,6 +526,7 @@ class Datum(Struct, frozen=True):
     sign: str = " = "
     constant: str = ""
     sense: str = ""
+    colon: str = ": "
     of: Quantity | None = None
     parameters: tuple[str, ...] = ()
 
@@ -541,7 +543,7 @@ class Datum(Struct, frozen=True):
         """The remark of the datum, apart from its value."""
         if self.constant:
             return f"{self.name} = {self.constant}" + (f", {self.sense}" if self.sense else "")
-        return f"{self.name}: {self.sense}" if self.sense else self.words
+        return f"{self.name}{self.colon}{self.sense}" if self.sense else self.words
 
 
 def given(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[str]:
@@ -709,6 +711,7 @@ def of_driver(
                 value=text_of_value,
                 constant=constant,
                 sense=sense,
+                colon=words("colon"),
                 of=quantity,
                 parameters=by,
             )

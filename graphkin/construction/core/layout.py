@@ -150,7 +150,7 @@ def room_below(paper: SheetPaper, height: Real) -> Real:
 
 
 def spare_height(drawing: Drawing) -> float:
-    """How far the upper edges of both fields can be lowered, in mm.
+    """How far the upper edges of both fields can be lowered, in mm; on leaves, of the left one.
 
     The highest drawing then has only the room ABOVE over it.
     """
@@ -158,12 +158,16 @@ def spare_height(drawing: Drawing) -> float:
     field = layout.mechanism
     tops = [field(complex(0.0, drawing.mechanism_extent().top))[1]]
     tops += [field(pole)[1] for pole in poles_of(drawing) if field.holds(pole)]
-    tops += [layout.plan(complex(0.0, drawing.plan_extent().top / metres))[1]]
+    if not drawing.paper.is_parted:
+        tops += [layout.plan(complex(0.0, drawing.plan_extent().top / metres))[1]]
     return max(min(tops) - ABOVE - drawing.paper.fields[1], 0.0)
 
 
-def lowered(layout: Layout, more: float) -> Layout:
-    """The same drawings in fields whose upper edges are ``more`` mm lower."""
+def lowered(paper: SheetPaper, layout: Layout, more: float) -> Layout:
+    """The same drawings in fields whose upper edges are ``more`` mm lower; on leaves, the left one.
+
+    The data are above it alone.
+    """
     if not more:
         return layout
 
@@ -171,7 +175,8 @@ def lowered(layout: Layout, more: float) -> Layout:
         left, top, right, low = field.rect
         return replace(field, rect=(left, top + more, right, low))
 
-    return replace(layout, mechanism=less(layout.mechanism), plan=less(layout.plan))
+    plan = layout.plan if paper.is_parted else less(layout.plan)
+    return replace(layout, mechanism=less(layout.mechanism), plan=plan)
 
 
 def poles_of(drawing: Drawing) -> Iterator[Point]:

@@ -68,6 +68,8 @@ AIR = 2.5
 """Required clearance of a ground from the marks at its pin, in mm."""
 RAIL = BLOCK[1] / 2 + HATCH
 """Half the width of a guide of the frame, in mm."""
+SAME = 1e-6
+"""Distance of two places, in sizes of the mechanism, at which they are the same."""
 RAY = 17.0
 """Drawn length, from its pin, of the axis from which a crank's angle is measured, in mm."""
 NEAR = hypot(TALL + HATCH / 2, STRIP + HIP * (TALL - PIVOT)) + AIR
@@ -190,6 +192,16 @@ def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> No
         if slide.on == FRAME and not slide.pin and not slide.rollers:
             here, way = field(seat(drawing, guideway)), field.way(guideway.along)
             board.marks.append(block(here, way, guideway.block, "slider"))
+
+
+def between_rails(drawing: Drawing, place: complex) -> bool:
+    """Whether a place is that of a block between the hatched sides of a guide of the frame."""
+    return any(
+        way.slide.on == FRAME
+        and not (way.slide.pin or way.slide.rollers)
+        and abs(seat(drawing, way) - place) < drawing.reach * SAME
+        for way in drawing.standing.guideways
+    )
 
 
 def frame_guides(drawing: Drawing, field: Field) -> Iterator[tuple[list[str], list[Mark]]]:

@@ -13,8 +13,10 @@ from graphkin.construction.cams.cam_symbols import draw_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.paper_canvas import draw_line
 from graphkin.construction.guides.slide_symbols import (
+    RAIL,
     Segment,
     away_from,
+    between_rails,
     draw_blocks,
     draw_frame_guides,
     draw_guide_bars,
@@ -268,7 +270,10 @@ def draw_ground(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> None:
-    """Label a point with its letter, clear of a fixed point's ground or away from its bars."""
+    """Label a point with its letter, clear of a fixed point's ground or away from its bars.
+
+    The letter of a slider's pin is outside the hatching of its guide.
+    """
     at = field(drawing.positions[name])
     if name in drawing.scene.fixed_points:
         ground = ground_ways(drawing, field.mm).get(name, -1j)
@@ -276,6 +281,8 @@ def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> No
     else:
         away = outward(drawing, field, name)
     radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
+    if between_rails(drawing, drawing.positions[name]):
+        radius = RAIL
     board.labels.append(
         Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=radius)
     )
