@@ -309,3 +309,24 @@ def test_a_lab_may_let_its_page_say_what_is_right(opened: Opened, run: Run, tmp_
     page.locator("#turn-undo").click()
     typed(page, "off O1 44 60.4 /1\nA")
     say.filter(has_text="A: right.").wait_for()
+
+
+SIZES = {"desktop": (1366, 768), "tablet": (820, 1180), "phone": (390, 844)}
+PLACES = """() => ["#given", "#asked", ".scales", ".fields"].map(one =>
+  document.querySelector(`main.task ${one}`).getBoundingClientRect().bottom + scrollY)"""
+"""The lower edges of what is given, of what is asked for, of the scales, the first fields."""
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_question_is_read_before_the_board(opened: Opened, folder: Path, size: str):
+    """The quantities of both plans stand above the fields; on a desktop, on the first screen."""
+    width, height = SIZES[size]
+    page = opened(page_of(folder), viewport={"width": width, "height": height})
+    given, asked, scales, fields = page.evaluate(PLACES)
+    assert asked < scales < fields and given < scales
+    assert size != "desktop" or asked < height / 2
+    told = page.locator("#asked").inner_text()
+    spoken = load("pump").spoken("ro").scene.ask
+    assert RO("ask.velocity", list="D") in told and RO("ask.acceleration", list="D") in told
+    assert spoken.velocity == spoken.acceleration == ("D",)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
