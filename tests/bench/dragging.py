@@ -1,10 +1,10 @@
 """Dragging a pin on a step page, beside an empty loop: ``python -m tests.bench.dragging``.
 
 In Chromium a pin of the pump is led to and fro, a place a frame; between them frames pass in which
-nothing moves. The rows are the times from frame to frame of both, and the time that a move takes of
-the page's thread. ``python -m tests.bench.dragging leaks 2000`` presses, leads and lets go as often;
-its rows are what the page holds before and after: memory, nodes and listeners, by the protocol of
-the browser's own tools, after the search for garbage.
+nothing moves. The rows are the times from frame to frame of both, and the processor time of the
+page's thread for a move, which other programs lengthen less. ``python -m tests.bench.dragging leaks
+2000`` presses, leads and lets go as often; its rows are what the page holds before and after:
+memory, nodes and listeners, by the browser's own tools, after the search for garbage.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def led(name: str) -> list[str]:
         for _ in range(ROUNDS):
             for moves, times in ((False, still), (True, moved)):
                 begun = busy()
-                times += page.evaluate(LED, [FRAMES, moves, x, y])
+                times.extend(page.evaluate(LED, [FRAMES, moves, x, y]))
                 work[moves] += busy() - begun
         page.mouse.up()
     own = 1e3 * (work[True] - work[False]) / (ROUNDS * FRAMES)
