@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from graphkin.documents.sheet_documents import CALCULATED, calculation_text, language_of
-from graphkin.documents.view_names import PAPER_VIEWS
+from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -51,15 +51,15 @@ def sheet_files(
             own, steps = f"{stem}-{part.kind}-{view}", view == "steps"
             files |= rendered(own, part.kind, part.pages, kinds, ink, steps=steps)
     given = mechanism.scene.forces
-    if "html" in kinds and given is not None and given.asked:
-        from graphkin.web.force_page import force_page
+    if "html" in kinds and view not in MOTION_VIEWS and given is not None and given.asked:
+        from graphkin.web.paper_page import force_page
 
         page = force_page(mechanism, view, language, ink)
         files[f"{stem}-force-{view}.html"] = page.encode("utf-8")
     return files, notes
 
 
-# --- the web page of a scene, by view: it draws itself step by step, or it is a task --------------
+# --- the web page of a scene, by view: it draws itself, is a task, or shows the motion -----------
 
 
 def hand_out_page(
@@ -75,22 +75,21 @@ def hand_out_page(
 
     ``name`` is the name of its lab or file, ``stem`` begins the names of its files. ``tell``
     receives notes on what is asked for but cannot be read off. The task of a lab contains the form
-    for answers. Raises as hand_out does, and SceneError for views that are for paper.
+    for answers. Raises as hand_out does, and SceneError for an overlay, which is laid on paper.
     """
-    if view in PAPER_VIEWS:
-        found = (
-            message("is laid over a drawing on paper, and html is a page for a screen")
-            if view == "overlay"
-            else message("is drawn on paper, and html is a page for a screen")
-        )
+    if view == "overlay":
         raise SceneError(
             Problem(
-                f"--view {view}",
-                found,
+                "--view overlay",
+                message("is laid over a drawing on paper, and html is a page for a screen"),
                 message("--format svg, pdf or dxf"),
                 message("leave html out of --format, or write another --view; nothing is written"),
             )
         )
+    if view in MOTION_VIEWS:
+        from graphkin.web.paper_page import motion_page
+
+        return motion_page(mechanism, view, language, ink)
     if view != "task":
         return step_page(mechanism, language, ink, TurnOwner(stem), tell)
     return task_page(mechanism, language, ink, answer_form(mechanism, name, stem, language), tell)

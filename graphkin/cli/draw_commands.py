@@ -80,7 +80,8 @@ def sheet(
     in twelve positions, or as [positions] says, and two more files have the plans of all of them.
 
     With --format html, writes one page for a browser, pump-n7-key.html, with both plans, every step
-    and the results. Forces have a page of their own. The pages need no network.
+    and the results. Forces have a page of their own, and so has the whole motion. The pages need no
+    network.
 
     \b
     Examples:

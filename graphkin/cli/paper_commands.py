@@ -25,7 +25,7 @@ from graphkin.cli.options import (
     tell,
 )
 from graphkin.cli.page_commands import browser_option, port_option, refuse_without, show
-from graphkin.documents.view_names import MOTION_VIEWS, PRINTED_VIEWS
+from graphkin.documents.view_names import PRINTED_VIEWS
 from graphkin.text.errors import PageError, Problem, message, verbatim
 
 if TYPE_CHECKING:
@@ -112,8 +112,6 @@ def print_sheets(
         refuse_without("print", "class", [("pikepdf", "pikepdf")])
     if "html" in kinds and "overlay" in chosen:
         raise click.UsageError("--view overlay is laid on paper: not with --format html", context)
-    if "html" in kinds and (paper := [view for view in chosen if view in MOTION_VIEWS]):
-        raise click.UsageError(f"--view {paper[0]} is for paper: not with --format html", context)
     if cluster and not cluster.startswith(CLUSTER):
         raise click.UsageError(f"--engine {cluster}: write {CLUSTER}HOST:PORT", context)
     edition = read_edition(folder)

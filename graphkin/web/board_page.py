@@ -82,9 +82,9 @@ def board_record(sheets: Sequence[ScreenSheet], *, says_right: bool = False) -> 
     return {
         "palette": {key: [kinds for _, kinds in own] for key, own in slots.items()},
         "beside": {
-            key: names.index(BESIDE)
+            key: found
             for key, own in slots.items()
-            if BESIDE in (names := [name for name, _ in own])
+            if (found := [place for place, (name, _) in enumerate(own) if name == BESIDE])
         },
         "picks": {key: written_thing(each) for key, each in given.things.items()},
         "letters": {

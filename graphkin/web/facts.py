@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec.structs import replace
 
@@ -65,8 +65,13 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
     }
 
 
-def wanted(drawing: Drawing) -> tuple[str, str, list[str]]:
-    """The scales of a task, the scale of its plan, and the quantities it asks for, one by one."""
+def scales_told(drawing: Drawing) -> tuple[str, str]:
+    """The scale at which a task is drawn, and that of its plan."""
     words, kL = drawing.words, f"{length_scale(drawing)} {drawing.words.unit('m/mm')}"
     scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
-    return scale, plan_at(drawing), [*asked_words(drawing), members(drawing)]
+    return scale, plan_at(drawing)
+
+
+def wanted(drawings: Sequence[Drawing]) -> list[str]:
+    """The quantities that a task asks for, one by one, and the links by their points."""
+    return [*(piece for each in drawings for piece in asked_words(each)), members(drawings[0])]

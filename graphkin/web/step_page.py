@@ -305,10 +305,11 @@ def task_page(
         "web/templates/task.html",
         **common(sheets),
         sheets=[
-            (fields(sheet, place, untimed(sheet)), facts.wanted(sheet.drawing))
+            (fields(sheet, place, untimed(sheet)), facts.scales_told(sheet.drawing))
             for place, sheet in enumerate(sheets)
         ],
         data=given(sheets[0].drawing),
+        asked=facts.wanted([sheet.drawing for sheet in sheets]),
         scheme=scheme_figure(sheets[0].drawing, shown),
         palette=board_palette(sheets[0].drawing.words),
         board=data_block("board", drawn_here),

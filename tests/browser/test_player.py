@@ -240,7 +240,7 @@ def test_keys_and_clicks_on_a_curve_play_and_move_and_a_velocity_bears_its_name(
     assert page.inner_text("#told") == start
     chart = page.locator("#curves figure > svg").first
     box = chart.bounding_box()
-    chart.click(position={"x": box["width"] * (44 + (320 - 52) / 2) / 320, "y": box["height"] / 2})
+    chart.click(position={"x": box["width"] * (44 + (320 - 60) / 2) / 320, "y": box["height"] / 2})
     assert float(page.input_value("#at")) == pytest.approx((low + high) / 2, abs=1.5)
     chart.focus()
     before = page.inner_text("#told")
@@ -270,3 +270,18 @@ def test_the_page_is_accessible(page_of):
     page = page_of("pump", color_scheme="dark", viewport=shape, **STILL)
     assert not barred(page)
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+CUT = """() => [...document.querySelectorAll("#curves figure > svg > text")].filter(text => {
+  const own = text.getBBox(), whole = text.ownerSVGElement.viewBox.baseVal;
+  return own.x < 0 || own.x + own.width > whole.width || own.y + own.height > whole.height;
+}).map(text => text.textContent)"""
+"""The numbers of charts that their edges cut."""
+
+
+@pytest.mark.parametrize("name", ["crank-rocker", "engine", "pump"])
+def test_no_number_of_a_chart_is_cut(page_of, name: str):
+    """A whole turn ends at 360°, whose number stands at the right edge."""
+    page = page_of(name, **STILL)
+    assert page.locator("#curves figure > svg > text").count() > 10
+    assert page.evaluate(CUT) == []

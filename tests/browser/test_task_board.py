@@ -20,6 +20,7 @@ from tests.browser.opening import Opened, barred
 from tests.browser.test_form import class_folder, page_of, save
 from tests.running import Run
 from tests.web.drawn_logs import PUMP, VELOCITIES
+from tests.web.drawn_logs import RING as GEARS
 
 TYPED = """
 ray O1 44
@@ -54,6 +55,35 @@ d
 """
 """The pump's position and velocity plan as they are typed; after a stroke the result to take."""
 RO = words("ro")
+RING = """
+ray O φ
+off O φ OP /1
+P
+off O φ 60 /1
+T1
+ray P -20
+off P -20 PQ /1
+Q
+off O φ 20 /1
+T2
+ray O 40
+off O 40 OS /1
+S
+perp o OP
+off o OP 60 /1
+p
+perp p PQ
+perp o T1Q
+x
+q
+div p o P T1 T2
+t2
+perp o OS
+perp t2 T2S
+x
+s
+"""
+"""The gears in a fixed ring: the contact of planet and sun divides the image of a diameter."""
 MOST_PRESSES = 250
 """The most key presses for the plan."""
 MOST_CLICKS = 95
@@ -309,3 +339,37 @@ def test_a_lab_may_let_its_page_say_what_is_right(opened: Opened, run: Run, tmp_
     page.locator("#turn-undo").click()
     typed(page, "off O1 44 60.4 /1\nA")
     say.filter(has_text="A: right.").wait_for()
+
+
+SIZES = {"desktop": (1366, 768), "tablet": (820, 1180), "phone": (390, 844)}
+PLACES = """() => ["#given", "#asked", ".scales", ".fields"].map(one =>
+  document.querySelector(`main.task ${one}`).getBoundingClientRect().bottom + scrollY)"""
+"""The lower edges of what is given, of what is asked for, of the scales, the first fields."""
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_question_is_read_before_the_board(opened: Opened, folder: Path, size: str):
+    """The quantities of both plans stand above the fields; on a desktop, on the first screen."""
+    width, height = SIZES[size]
+    page = opened(page_of(folder), viewport={"width": width, "height": height})
+    given, asked, scales, fields = page.evaluate(PLACES)
+    assert asked < scales < fields and given < scales
+    assert size != "desktop" or asked < height / 2
+    told = page.locator("#asked").inner_text()
+    spoken = load("pump").spoken("ro").scene.ask
+    assert RO("ask.velocity", list="D") in told and RO("ask.acceleration", list="D") in told
+    assert spoken.velocity == spoken.acceleration == ("D",)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_a_planetary_gear_is_drawn_to_its_end_by_keys(opened: Opened, run: Run, tmp_path: Path):
+    scene = Path(__file__).parents[2] / "examples" / "scenes" / "gears-ring.toml"
+    run("sheet", scene, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
+    page = fresh(opened, tmp_path / "gears-ring-task.html")
+    typed(page, RING)
+    (log,) = page.evaluate("Object.values(localStorage)")
+    given = board_given([each.drawing for each in screen_sheets(load(str(scene)), "en", "task")])
+    drawn, right = (replayed(given, one) for one in (log, GEARS))
+    assert drawn.named.keys() == right.named.keys()
+    for letter in right.named:
+        assert abs(drawn.value_of(letter) - right.value_of(letter)) < 1e-9

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from shutil import copytree
+from threading import Thread
+from typing import Any
 
 import msgspec
 import pytest
 from PIL import Image
 
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.reading.desk_app import DeskSession, DrawingDesk
+from graphkin.reading.desk_app import DeskSession, DrawingDesk, desk_application
 from graphkin.reading.marked_drawing import BLUE, drawings_of_class, pinned_remarks
 from graphkin.reading.settled_points import SETTLED, PointDecision, SettledPoints
+from graphkin.studio.server import served
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
 from graphkin.text.errors import Refusals
+from tests.browser.opening import barred, heard
 from tests.reading.test_reading import a_class, code, taken  # noqa: F401
 from tests.running import ran
 
@@ -119,3 +125,82 @@ def test_an_anonymous_desk_shows_no_name(read: Path) -> None:
     box = [side * 6 + inset for side, inset in zip(STUDENT, (6, 6, -6, -6), strict=True)]
     assert shown.crop(box).convert("L").getextrema()[0] > 245
     assert whole.crop(box).convert("L").getextrema()[0] < 200
+
+
+PLACE = """([x, y]) => {
+  const spot = new DOMPoint(x, y).matrixTransform(
+    document.getElementById("paper").getScreenCTM());
+  return [spot.x, spot.y];
+}"""
+"""Where on the screen a place of the paper is."""
+ASKED = """() => {
+  const rows = [...document.querySelectorAll("#points tr")];
+  const row = rows.findIndex(one => one.ariaCurrent === "true");
+  return [row, document.getElementById("open").textContent];
+}"""
+"""The row in hand, and how much is left to decide."""
+SEEN = "document.getElementById('paper').getBoundingClientRect().toJSON()"
+
+
+@contextmanager
+def at_desk(session: DeskSession) -> Iterator[str]:
+    """The address of a desk, served meanwhile."""
+    found = served(lambda: desk_application(session))
+    thread = Thread(target=found.server.run, daemon=True)
+    thread.start()
+    try:
+        yield found.address
+    finally:
+        found.server.close()
+        thread.join(5)
+
+
+def test_doubtful_points_are_decided_on_the_drawing(read: Path, chromium: Any) -> None:
+    """A click moves the point, Enter takes what its place makes likely, one key takes it back."""
+    session = DeskSession(read, words("en"), "Ana")
+    with at_desk(session) as address:
+        page = chromium.new_page(viewport={"width": 1366, "height": 768}, bypass_csp=True)
+        with heard(page, "pageerror") as errors:
+            page.goto(address)
+            page.wait_for_selector("body[data-ready=yes]")
+            assert barred(page) == []
+            decided_on_the_drawing(page, session)
+            page.set_viewport_size({"width": 420, "height": 800})
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        page.close()
+        assert not errors
+
+
+def decided_on_the_drawing(page: Any, session: DeskSession) -> None:
+    """What a marker does with the first doubtful point, and with the whole sheet."""
+
+    def point() -> dict[str, Any]:
+        (sheet,) = (each for each in session.drawings.sheets() if each["name"] == "hard")
+        return sheet["points"][row]
+
+    row, left = page.evaluate(ASKED)
+    seen = page.evaluate(SEEN)
+    assert seen["width"] > 0.7 * 1366 and seen["height"] > 0.9 * 768
+    place = [point()["own"][0] + 4.0, point()["own"][1]]
+    page.mouse.click(*page.evaluate(PLACE, place))
+    likely = page.locator("#choices [aria-pressed=true]").get_attribute("data-verdict")
+    assert likely == "wrong"  # 4 mm off the student's own place of it
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press("Enter")
+    page.wait_for_function(f"({ASKED})()[0] !== {row}")
+    assert point()["decided"] and point()["verdict"] == "wrong"
+    assert point()["at"] == pytest.approx([place[0] - 0.1, place[1]], abs=0.05)
+    assert page.evaluate(ASKED)[1] != left
+    page.keyboard.press("u")
+    page.wait_for_function(f"({ASKED})()[0] === {row}")
+    assert not point()["decided"]
+    assert page.evaluate(ASKED) == [row, left]
+    page.keyboard.press("0")
+    assert page.locator("#paper").get_attribute("viewBox") == "0 0 420 297"
+    page.mouse.move(*page.evaluate(PLACE, [120.0, 60.0]))
+    page.keyboard.press("c")
+    page.keyboard.type("draw thinner")
+    page.keyboard.press("Enter")
+    page.locator("#pins li").wait_for()
+    assert page.locator("#pins li").all_inner_texts() == ["draw thinner"]
+    assert page.locator("#paper .pin").count() == 1

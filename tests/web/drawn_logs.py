@@ -28,3 +28,21 @@ LEVER = (
     "cut 38 39|name 40 2:C"
 )
 """The slotted lever with both plans: two pairs of similar triangles, and a Coriolis component."""
+PLATFORM = (
+    "ray 0:A 16.57deg|off 0:A 1 72.00mm|name 2 0:D|arc 0:B 68.00mm|arc 2 l:D-E|cut 4 5 /1|"
+    "name 6 0:E|arc 2 l:D-F|arc 6 l:E-F|cut 8 9|name 10 0:F|join 0:B 6|join 0:C 10|par 1: 1|"
+    "par 1: 12|par 1: 13|perp 1: 1|perp 1: 13|off 1: 14 100.00mm|off 1: 15 60.00mm /1|"
+    "perp 20 12|perp 19 D-E|cut 21 22|perp 19 D-F|perp 23 E-F|cut 24 25|off 1: 17 90mm|"
+    "par 27 1|off 27 28 100.00mm|perp 29 D-E|cut 21 30|perp 29 D-F|perp 31 E-F|cut 32 33|"
+    "off 1: 16 30.00mm|perp 35 13|join 26 34|cut 37 36|name 38 1:F|div 19 29 26 34 38|"
+    "name 40 1:D|div 23 31 26 34 38|name 42 1:E"
+)
+"""The platform on three cylinders, of class III: two trials, the crossing, the ratio."""
+RING = (
+    "ray 0:O a:1|off 0:O 1 l:O-P|name 2 0:P|off 0:O 1 60.00mm|name 4 0:T1|ray 2 -20deg|"
+    "off 2 6 l:P-Q|name 7 0:Q|off 0:O 1 20.00mm|name 9 0:T2|ray 0:O 40deg|off 0:O 11 l:O-S|"
+    "name 12 0:S|perp 1: 1|off 1: 14 60mm|name 15 1:P|perp 15 P-Q|perp 1: T1-Q|cut 17 18|"
+    "name 19 1:Q|div 15 1: 2 0:T1 9|name 21 1:T2@2|perp 1: O-S|perp 21 T2-S|cut 23 24|"
+    "name 25 1:S"
+)
+"""The planetary gear in a fixed ring: the contact divides the image of the planet's diameter."""

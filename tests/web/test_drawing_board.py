@@ -25,7 +25,7 @@ from graphkin.construction.board import (
     replayed,
 )
 from graphkin.construction.registry import BOARD
-from graphkin.mechanism import load
+from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.plane import Circle, Line
 from graphkin.text.errors import PageError
 from graphkin.web.offline_page import part
@@ -33,7 +33,7 @@ from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import task_page
 from graphkin.web.your_turn import written
 from tests.documents.sheet_tools import mechanism_named
-from tests.web.drawn_logs import LEVER, PUMP
+from tests.web.drawn_logs import LEVER, PLATFORM, PUMP, RING
 
 LABS = ("pump", "pump-collinear", "offset-slider-crank", "slotted-lever")
 TRIALS = 30
@@ -52,9 +52,14 @@ MODULES = ("palette.js", "board_actions.js")
 """The modules that compute the results of moves."""
 
 
+def scene_of(name: str) -> Mechanism:
+    """A lab, or a scene of the examples."""
+    return load(name) if name in LABS else mechanism_named(name)
+
+
 def given_of(name: str) -> tuple[BoardGiven, Any]:
     """What the board of a lab is given, and the values of its key."""
-    drawings = [sheet.drawing for sheet in screen_sheets(load(name).measured, "en", "task")]
+    drawings = [sheet.drawing for sheet in screen_sheets(scene_of(name).measured, "en", "task")]
     values = drawings[0].trace.values | drawings[-1].trace.values
     return board_given(drawings), values
 
@@ -94,6 +99,8 @@ class Table(Board):
         tail, way = self.dice["1p0"].value, 1j * (q - p) * dice.uniform(-3, 3)
         self.dice["1tip"] = Thing("image", 1, tail + way)
         self.dice["a"] = Thing("arrow", 1, tail + way - tail, on=("1p0", "1tip"))
+        self.dice["e"] = Thing("arrow", 2, self.dice["2p1"].value - self.dice["2p0"].value,
+                               on=("2p0", "2p1"))  # fmt: skip
         self.images = {"1p0": ["0p0", "0p1"], "1p1": ["0p2"]}
 
     def places_of(self, image: str) -> list[complex]:
@@ -173,14 +180,40 @@ def test_every_action_draws_the_same_in_python_and_on_the_page(action: str, page
 # --- a whole plan from a log ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("name", "log"), [("pump", PUMP), ("slotted-lever", LEVER)])
+DRAWN = {
+    "pump": PUMP,
+    "slotted-lever": LEVER,
+    "platform-3rpr": PLATFORM,
+    "gears-ring": RING,
+}
+"""Drawings by their scene."""
+
+
+@pytest.mark.parametrize(("name", "log"), DRAWN.items())
 def test_a_plan_drawn_from_its_log_is_that_of_the_key(name: str, log: str):
     given, values = given_of(name)
     board = replayed(given, log)
-    assert len(board.named) > 6
+    assert len(board.named) >= 6
     for letter, key in board.named.items():
         right = values[given.letters[letter].step]
         assert abs(board.own[key].value - right) < 2e-3 * max(1.0, abs(right)), letter
+
+
+def test_the_path_of_a_crank_pin_is_curved_about_the_fixed_pivot():
+    given, _ = given_of("pump")
+    board = replayed(given, f"{PUMP}|curv 2 1:>A 2:>A")
+    found = board.own[str(board.moves)]
+    assert found.plane == 0
+    assert abs(found.value - given.things["0:O1"].value) < 1e-3 * 0.3
+
+
+def test_a_line_is_divided_as_one_of_the_same_drawing_alone():
+    """Both ends of a line lie in one drawing, and so do the three points of its pattern."""
+    given, _ = given_of("pump")
+    assert replayed(given, f"{PUMP}|div 16 20 2 6 10").own
+    for mixed in ("div 16 6 2 6 10", "div 16 20 16 6 10", "div 16 20 2 6 24"):
+        with pytest.raises(PageError):
+            replayed(given, f"{PUMP}|{mixed}")
 
 
 HOSTILE = (
@@ -261,6 +294,7 @@ def test_the_page_holds_no_value_of_the_key_in_any_rounding(name: str):
     stated = numbers_in(record["picks"]) + list(record["millimetre"])
     for _, *fields in record.pop("fields"):  # on a grid of 10 mm, each at its scale
         assert all(x % 10 == y % 10 == re == im == 0 for x, y, re, im, _ in fields)
+    assert {place for own in record.pop("beside").values() for place in own} <= {*range(1, 5)}
     held = [number for number in numbers_in(record) if number not in stated]
     keys = results_of(name)
     assert len(keys) >= LEADING

@@ -166,13 +166,16 @@ class Sheets:
         return {kind: joined(pages) for kind, pages in zip(kinds, self.leaves, strict=True)}
 
     def page(self, view: str, stem: str, ink: Ink) -> str:
-        """The page for a browser: the task with the form to fill in, or the key step by step."""
+        """The page for a browser: the task with its form, the key step by step, or the motion."""
         from graphkin.classroom import form_page
+        from graphkin.web.paper_page import paper_page
         from graphkin.web.step_page import step_page, task_page
         from graphkin.web.your_turn import TurnOwner
 
         taker, lab, language = self.taker, self.lab, self.words.language
         student = taker.student
+        if view in MOTION_VIEWS:
+            return paper_page([page for each in self.of(view) for page in each.pages], ink)
         if view != "task":
             return step_page(self.mechanism, language, ink, TurnOwner(stem, student.id, taker.code))
         name = ", ".join(part for part in (student.name, student.group) if part)

@@ -22,7 +22,14 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Slip, constructions
 from graphkin.construction.core.naming import drawn_amount, drawn_in, scale_of
-from graphkin.construction.core.palette import MECHANISM, Move, PaletteAction, Picked, Picks
+from graphkin.construction.core.palette import (
+    MECHANISM,
+    DrawnThings,
+    Move,
+    PaletteAction,
+    Picked,
+    Picks,
+)
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import (
@@ -44,6 +51,14 @@ from graphkin.text.markup import AND
 
 # --- its value, and the steps by hand ------------------------------------------------------------
 
+
+def curvature_of(things: DrawnThings, p: str, velocity: str, acceleration: str) -> list[complex]:
+    """The centre of curvature of the path of a point with a velocity and an acceleration."""
+    v, a = things.value_of(velocity), things.value_of(acceleration)
+    across = cross(v, a)
+    return [things.value_of(p) + 1j * v * dot(v, v) / across] if across else []
+
+
 CURVATURE = PaletteAction(
     "curvature",
     (("at", ("point",)), ("velocity", ("arrow",)), ("acceleration", ("arrow",))),
@@ -53,6 +68,7 @@ CURVATURE = PaletteAction(
     }""",
     plane=MECHANISM,
     typed=("curv",),
+    draw=curvature_of,
 )
 
 

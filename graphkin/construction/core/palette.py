@@ -110,6 +110,15 @@ def similar_images(things: DrawnThings, i: str, j: str, point: str) -> list[comp
     ]
 
 
+def divided_alike(things: DrawnThings, p: str, q: str, m: str, n: str, point: str) -> list[complex]:
+    """The point that divides the line of two points as another point divides a second line."""
+    start, first = things.value_of(p), things.value_of(m)
+    line, part = things.value_of(n) - first, things.value_of(point) - first
+    return (
+        [start + (things.value_of(q) - start) * dot(part, line) / dot(line, line)] if line else []
+    )
+
+
 def pole_on(things: DrawnThings, bar: str, i: str, j: str) -> list[complex]:
     """The points of rest of a link whose bar has two images, the ends taken either way."""
     p, q = things.ends_of(bar)
@@ -298,9 +307,16 @@ JOIN = PaletteAction(
 DIVIDE = PaletteAction(
     "divide",
     (("image", ("image",)), ("and", ("image",))),
-    """(p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
-      .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share)))""",
+    """(p, q, m, n, point) => {
+      const part = end => minus(value_of(end), value_of(m)), parts = m
+        ? [dot(part(point), part(n)) / dot(part(n), part(n))]
+        : shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
+          .map(([, share]) => share);
+      return parts.map(one => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), one)));
+    }""",
     typed=("div",),
+    free=(("from", POINTS), ("and", POINTS), ("as", POINTS), ("and", POINTS), ("and", POINTS)),
+    draw=divided_alike,
 )
 POLE = PaletteAction(
     "pole",

@@ -12,6 +12,7 @@ export const ACTIONS = {
   coriolis: ["point", 3, 0],
   join: ["line", null, 0],
   pole: ["point", 0, 0],
+  curvature: ["point", 0, 0],
 };
 
 /** The signs and words by which each action is typed.
@@ -28,13 +29,15 @@ export const TYPED = {
   triangle: ["△", "tri"],
   coriolis: ["cor"],
   join: ["join"],
+  divide: ["div"],
   pole: ["pole"],
+  curvature: ["curv"],
 };
 
 /** What each action draws from the keys of its picks: a list of results.
  * @param {any} given
  * @returns {Record<string, (...keys: any[]) => any[]>} */
-export const drawn_by = ({ plus, minus, scaled, quarter, long, times, over, cuts, value_of, way, places_of, reach, normal, picks }) => ({
+export const drawn_by = ({ plus, minus, scaled, quarter, long, dot, cross, times, over, cuts, value_of, way, places_of, reach, normal, picks, shares, all_done }) => ({
   ray: (p, angle) => {
       const turned = value_of(angle) * Math.PI / 180;
       return [[value_of(p), [Math.cos(turned), Math.sin(turned)]]];
@@ -52,8 +55,19 @@ export const drawn_by = ({ plus, minus, scaled, quarter, long, times, over, cuts
   triangle: normal,
   coriolis: (rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))],
   join: (p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]],
+  divide: (p, q, m, n, point) => {
+      const part = end => minus(value_of(end), value_of(m)), parts = m
+        ? [dot(part(point), part(n)) / dot(part(n), part(n))]
+        : shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
+          .map(([, share]) => share);
+      return parts.map(one => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), one)));
+    },
   pole: (bar, i, j) => [picks[bar].on, [...picks[bar].on].reverse()].map(ends => {
       const [p, q] = ends.map(value_of), image = value_of(i);
       return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));
     }),
+  curvature: (p, velocity, acceleration) => {
+      const [v, a] = [value_of(velocity), value_of(acceleration)];
+      return [plus(value_of(p), scaled(quarter(v), dot(v, v) / cross(v, a)))];
+    },
 });

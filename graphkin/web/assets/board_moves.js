@@ -68,8 +68,8 @@ export function check_move(action, given, found, plane, _other) {
  * @param {string[]} given
  */
 function why_nothing(action, given) {
-  const beside = turning.beside[action];
-  if (beside && picks[given[beside]].plane !== picks[given[beside - 1]].plane) return "apart";
+  const plane = place => picks[given[place]].plane;
+  if (turning.beside[action]?.some(place => plane(place) !== plane(place - 1))) return "apart";
   if (action === "cut" && given[0] !== given[1]) {
     return given.some(key => picks[key].kind === "circle") ? "unmet" : "parallel";
   }

@@ -5,7 +5,7 @@ import { byId, data, motion, rest, rows, span, state } from "./player.js";
 const WIDE = 320,
   HIGH = 160,
   LEFT = 44,
-  RIGHT = 8,
+  RIGHT = 16,
   TOP = 8,
   FOOT = 22; // size of a chart, and the margins around its curves
 const SAMPLES = 360,

@@ -59,8 +59,13 @@ export const drawn_by = ({ plus, minus, scaled, quarter, long, dot, cross, times
   klein: normal,
   coriolis: (rate, velocity) => [scaled(quarter(value_of(velocity)), 2 * value_of(rate))],
   join: (p, q) => p === q ? [] : [[value_of(p), minus(value_of(q), value_of(p))]],
-  divide: (p, q) => shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
-      .map(([, share]) => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), share))),
+  divide: (p, q, m, n, point) => {
+      const part = end => minus(value_of(end), value_of(m)), parts = m
+        ? [dot(part(point), part(n)) / dot(part(n), part(n))]
+        : shares.filter(([plane,, needs]) => plane === picks[p].plane && all_done(needs))
+          .map(([, share]) => share);
+      return parts.map(one => plus(value_of(p), scaled(minus(value_of(q), value_of(p)), one)));
+    },
   pole: (bar, i, j) => [picks[bar].on, [...picks[bar].on].reverse()].map(ends => {
       const [p, q] = ends.map(value_of), image = value_of(i);
       return plus(p, times(minus(q, p), over(scaled(image, -1), minus(value_of(j), image))));

@@ -18,9 +18,9 @@ import { redo, undo } from "./history.js";
 import { fits, forget_inputs, names_of, plain_words, show_picks, slots_of } from "./picking.js";
 import { is_curve, show_aim } from "./pointing.js";
 
-const PLAIN = { "°": "", "′": "'", "″": "''", ν: "n", τ: "t", ω: "w", ε: "e" };
+const PLAIN = { "°": "", "′": "'", "″": "''", ν: "n", τ: "t", ω: "w", ε: "e", "−": "-" };
 export const typed_form = text =>
-  text.replace(/[°′″ντωε]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
+  text.replace(/[°′″ντωε−]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
 
 /** The ways in which a pick is written: its whole name, without words before it, or by the bar or guide of a line. */
 function forms_of(key) {
