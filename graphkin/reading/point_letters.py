@@ -18,8 +18,8 @@ from graphkin.reading.drawn_ink import DENSITY, DrawnInk
 
 WEIGHTS = Path(__file__).parent / "letter_weights.npz"
 ALPHABET = "abcdefghijklmnopqrstuvwxyz"
-INKED = 0.35
-"""The darkness from which a pixel belongs to a piece."""
+INKED = 0.65
+"""The darkness from which a pixel belongs to a piece: specks of the paper are paler."""
 ROOM, NEAR, ABOUT = 13.0, 8.0, 1.0
 """Half the side of the square about a point that is looked at; pieces lie between ABOUT and NEAR
 mm from the point, where no ring is taken for a letter.
@@ -30,6 +30,8 @@ SMALLEST, LARGEST = 0.8, 6.0
 """The least and the most height or width of a letter, in mm."""
 JOINED = 0, 3, 5
 """Pieces less than so many pixels apart are one piece, tried in turn."""
+SLIGHT = 0.65
+"""A letter with pieces of less than this share of its size is no other letter: a prime, a speck."""
 SIDE, BOX = 24, 20
 """The side of the square that the network sees, and of the piece in it, in pixels."""
 FLOOR = 0.02
@@ -47,6 +49,8 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
     inked = (dark > INKED).astype(np.uint8)
     left = inked * (cv2.dilate(straight(inked), np.ones((3, 3), np.uint8)) == 0)
     low, high = SMALLEST * DENSITY, LARGEST * DENSITY
+    _, parts, boxes, _ = cv2.connectedComponentsWithStats(left)
+    sizes = boxes[:, 2:4].max(axis=1)
     seen = set[tuple[int, int, int, int]]()
     for gap in JOINED:
         joined = cv2.dilate(left, np.ones((gap, gap), np.uint8)) if gap else left
@@ -57,7 +61,9 @@ def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
             x, y, width, height = cv2.boundingRect(mask)
             box = int(x), int(y), int(width), int(height)
             long, short = max(width, height), min(width, height)
-            if low <= long <= high and short >= 2 and box not in seen:
+            most, second = np.sort([0, *sizes[np.setdiff1d(parts[mask > 0], 0)]])[:-3:-1]
+            alone = most >= low and 0 < second < SLIGHT * most
+            if low <= long <= high and short >= 2 and box not in seen and not alone:
                 seen.add(box)
                 yield box, shown(dark * cv2.dilate(mask, np.ones((3, 3), np.uint8)), box)
 

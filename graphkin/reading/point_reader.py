@@ -75,7 +75,7 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 2.5, 4.5, 0.5, -1.5
+EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 1.0, 2.5, 0.2, -1.5
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
 
 BOTH of the points saying so are enough; no point may say the opposite by more than AGAINST.
@@ -189,12 +189,9 @@ class PointReader(PointSearch):
     def compare_letters(self) -> None:
         """Doubt points of the plan beside which the letters seem to be exchanged.
 
-        *Wrong* is proposed, each at the other's place, where both letters are clearly read. Letters
-        of trial plans are too close to tell whose they are.
+        *Wrong* is proposed, each at the other's place, where both letters are clearly read.
         """
-        steps, exact = self.sheet.exact.program.steps, self.sheet.exact.trace.values
-        if any(steps[n].aside is not None and steps[n].name for n in exact):
-            return
+        steps = self.sheet.exact.program.steps
         lettered = {
             number: reading.name[0]
             for number, reading in self.readings.items()

@@ -34,6 +34,9 @@ OWN = 0.75
 """The least share of the head at a point that counts as the end of its vector without a doubt."""
 RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.86
 """Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
+SECTOR, LEAST_TURNS = np.radians(50.0), 6
+"""Half the sector about a vector's shaft that its head may fill; the least directions that remain.
+"""
 FADED = 0.2
 """The darkness from which a ring counts as drawn where lines are crowded and fade each other."""
 ASTRAY = 0.3
@@ -184,7 +187,7 @@ def vector_end(
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
     share = heads(ink, on_shaft(ink, tail + along * way, way), way, pale)
     here = float(share[abs(along - long) <= NEAR].max())
-    marked = is_marked(ink, tip, RINGS, FADED)
+    marked = is_marked(ink, tip, RINGS, FADED, [-way, *(-each for each in beside)])
     others = [(each - tail) / way for each in others]
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
@@ -259,14 +262,25 @@ def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex
     return runs_on and not is_marked(ink, tip, PINS)
 
 
-def is_marked(ink: DrawnInk, place: complex, radii: Any, pale: float = COVERED) -> bool:
+def is_marked(
+    ink: DrawnInk,
+    place: complex,
+    radii: Any,
+    pale: float = COVERED,
+    ends: Sequence[complex] = (),
+) -> bool:
     """Whether a dot or a ring of one of some radii (mm) is drawn about a place.
 
-    Ink darker than ``pale`` counts as drawn.
+    Ink darker than ``pale`` counts as drawn. What lies towards ``ends``, directions in which
+    vectors come from, may be their heads and is left out.
     """
     near = np.arange(-ASTRAY, ASTRAY + 0.01, 0.15)
     middles = (place + near[:, None] + 1j * near[None, :]).ravel()
     turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
+    for end in ends:
+        turns = turns[abs(np.angle(turns / end)) > SECTOR]
+    if turns.size < LEAST_TURNS:
+        return False
     rings = middles[:, None, None] + radii[:, None] * turns
     dark, known = ink.at(rings.reshape(len(middles), -1))
     seen = (known > 0).reshape(rings.shape)
