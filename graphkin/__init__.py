@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from graphkin.text.hooks import register
-
 if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism, load
 
 __all__ = ["Mechanism", "load"]
 __version__ = "1.0.0"
 
-register(
-    does_not_close="graphkin.diagnosis.assembly_failure:does_not_close",
-    refuse_touching="graphkin.diagnosis.assembly_failure:refuse_touching",
-    wrong_with_structure="graphkin.mechanism:wrong_with_structure",
-    settle="graphkin.writers.commit:settle",
-    plot="graphkin.documents.notebook:plot",
-    picture="graphkin.documents.notebook:picture",
-)
+SERVICES = {
+    "does_not_close": "graphkin.diagnosis.assembly_failure:does_not_close",
+    "refuse_touching": "graphkin.diagnosis.assembly_failure:refuse_touching",
+    "wrong_with_structure": "graphkin.mechanism:wrong_with_structure",
+    "settle": "graphkin.writers.commit:settle",
+    "plot": "graphkin.documents.notebook:plot",
+    "picture": "graphkin.documents.notebook:picture",
+}
+"""What a lower room needs of a higher one, as module:function; text/hooks.py loads it."""
 
 
 def __getattr__(name: str) -> Any:

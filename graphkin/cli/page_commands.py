@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.options import FolderType, current, force_option, lang_option, say_aside, tell
+from graphkin.cli.folder_options import FolderType
+from graphkin.cli.options import (
+    current,
+    force_option,
+    lang_option,
+    say_aside,
+    tell,
+)
 from graphkin.scene.findings import near_name
 
 if TYPE_CHECKING:

@@ -9,12 +9,11 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from errno import EFBIG, EINVAL
 from stat import S_ISDIR, S_ISREG
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphkin.scene.expression import unit_hint
 from graphkin.scene.findings import Findings, shown_key, visible
 from graphkin.scene.measures import FloatText
-from graphkin.scene.toml_spans import Again, Path, walked
 from graphkin.text import paths
 from graphkin.text.errors import (
     NO_WORDS,
@@ -27,6 +26,9 @@ from graphkin.text.errors import (
     message,
     verbatim,
 )
+
+if TYPE_CHECKING:
+    from graphkin.scene.toml_spans import Again, Path
 
 LARGEST = 256 * 1024
 """The most bytes of a scene file."""
@@ -349,6 +351,8 @@ SPARE = "\ue000"
 
 def written_twice(text: str) -> tuple[list[Problem], str, list[Again]]:
     """The problems of duplicates, the text with the duplicates renamed, and their places."""
+    from graphkin.scene.toml_spans import walked
+
     again = walked(text).again
     problems = [problem_of(text, each) for each in again]
     for number, each in reversed([*enumerate(again)]):

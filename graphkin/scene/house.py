@@ -26,7 +26,7 @@ HOUSE = "house.toml"
 FORMAT = 1
 SET = "set"
 """The key of a set of signs, beside those of single signs."""
-SIGN = re.compile(r"[A-Za-zα-ωΑ-Ω]{1,4}(_[A-Za-z0-9α-ω]{1,3})?[′']?")
+SIGN = r"[A-Za-zα-ωΑ-Ω]{1,4}(_[A-Za-z0-9α-ω]{1,3})?[′']?"
 """A sign as it is written: letters, perhaps an index after an underscore, perhaps a prime."""
 MOST_LINES, LARGEST_LOGO, MOST_PIXELS = 2, 2 << 20, 16_000_000
 """The most lines of a header, bytes of a logo, and pixels of a picture."""
@@ -470,7 +470,7 @@ def read_signs(holder: Table, key: str, default: SchoolSigns = USUAL) -> SchoolS
     own = {name: getattr(base, name) for name in NAMES}
     for name in NAMES:
         sign = table.text(name)
-        if sign and not SIGN.fullmatch(sign):
+        if sign and not re.fullmatch(SIGN, sign):
             expected = message("one to four letters, such as {sign}", sign=getattr(USUAL, name))
             table.findings.add(table.at(name), shown(sign), expected)
         elif sign:

@@ -25,7 +25,7 @@ EXAMPLES = (within(HERE, "scenes"), within(ABOVE, "examples", "scenes"))
 """The folders with the example scenes, in the same order."""
 LAB, SCENE, ENDING = "lab.toml", "scene.toml", ".toml"
 """The file that makes a scene a lab, the scene file of a folder, and the ending of both."""
-BEGINS, HEAD = re.compile(rb"^\s*graphkin\s*=", re.MULTILINE), 4096
+BEGINS, HEAD = rb"(?m)^\s*graphkin\s*=", 4096
 """The first key of a scene, and the number of bytes in which it is searched for."""
 
 UNFINISHED = ".graphkin-unfinished"
@@ -98,7 +98,7 @@ def scenes_beside(path: str) -> Iterator[str]:
         file = within(around, other, SCENE) if paths.is_folder(around + other) else around + other
         if file.endswith(ENDING) and other != HOUSE and paths.is_file(file):
             with suppress(OSError):
-                if BEGINS.search(paths.first_bytes(file, HEAD)):
+                if re.search(BEGINS, paths.first_bytes(file, HEAD)):
                     yield around + other
 
 

@@ -6,7 +6,6 @@ import re
 from collections.abc import Mapping
 from functools import cached_property, lru_cache
 from math import floor, log10
-from string import Formatter
 from typing import Any
 
 from graphkin.text.markup import Markup, names_in, saying
@@ -16,9 +15,9 @@ LANGUAGES = ("de", "en", "es", "fr", "it", "ro", "ru")
 ENGLISH = "en"
 """The language of the sentences that another one does not have yet."""
 MINUS = "\N{MINUS SIGN}"
-METRE = re.compile(r"(?<![\w*{'’])m(?=/s|/mm|$)")
+METRE = r"(?<![\w*{'’])m(?=/s|/mm|$)"
 """A metre in a unit: m, m/s, (m/s²)/mm, m/mm."""
-RATE = re.compile(r"(?<![\w*{'’])m(?=/s)")
+RATE = r"(?<![\w*{'’])m(?=/s)"
 """A metre in a unit in a sentence."""
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
@@ -61,11 +60,11 @@ class Words:
         if self.signs is USUAL and self.length == "m":
             return found
         signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
-        return Sentences({key: RATE.sub(self.length, said) for key, said in signed.items()})
+        return Sentences({key: re.sub(RATE, self.length, said) for key, said in signed.items()})
 
     def unit(self, unit: str) -> str:
         """A unit of results, whose metres are these lengths: in/s for m/s."""
-        return unit if self.length == "m" else METRE.sub(self.length, unit)
+        return unit if self.length == "m" else re.sub(METRE, self.length, unit)
 
     def __call__(self, key: str, **fields: object) -> Markup:
         """The sentence under a key, with its fields filled in. Raises KeyError if it is missing."""
@@ -118,6 +117,8 @@ class Words:
 @lru_cache(maxsize=2048)
 def gaps_of(sentence: str) -> frozenset[str]:
     """The names of a sentence's fields."""
+    from string import Formatter
+
     return frozenset(name for _, name, _, _ in Formatter().parse(sentence) if name)
 
 

@@ -1,4 +1,4 @@
-"""Services of upper packages for lower ones: registered by the package, requested by name."""
+"""Services of upper packages for lower ones: listed in the package, requested by name."""
 
 from __future__ import annotations
 
@@ -6,22 +6,16 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
-DONE_BY: dict[str, str] = {}
-"""The function of each service, as module:function."""
-
-
-def register(**services: str) -> None:
-    """Register the functions of some services, each as module:function."""
-    DONE_BY.update(services)
+from graphkin import SERVICES
 
 
 def service(name: str) -> Callable[..., Any]:
     """The function of a service, loaded on first use.
 
-    Raises LookupError for an unregistered service.
+    Raises LookupError for a service that the package does not list.
     """
-    if name not in DONE_BY:
+    if name not in SERVICES:
         raise LookupError(f"nobody renders {name!r}")
-    module, _, function = DONE_BY[name].partition(":")
+    module, _, function = SERVICES[name].partition(":")
     found: Callable[..., Any] = getattr(import_module(module), function)
     return found

@@ -84,7 +84,7 @@ class SchoolSigns(Struct, frozen=True, dict=True):
 
     def in_sentence(self, sentence: str) -> str:
         """A sentence of a text file, which has the usual signs, with these."""
-        return TOKEN.sub(lambda found: self.tokens.get(found[0], found[0]), sentence)
+        return re.sub(TOKEN, lambda found: self.tokens.get(found[0], found[0]), sentence)
 
     @cached_property
     def tokens(self) -> Mapping[str, str]:
@@ -112,7 +112,7 @@ def sign_markup(sign: str) -> str:
 USUAL = SchoolSigns()
 NAMES = tuple(each.name for each in fields(SchoolSigns))
 """The keys of signs, in the order in which they are listed."""
-TOKEN = re.compile(r"\*ε\*|\*o\*′?|\*k\*_(?:[LvanF]\b|\{\{)|\*a\*\^\{\{.\}\}|\ba\^c\b")
+TOKEN = r"\*ε\*|\*o\*′?|\*k\*_(?:[LvanF]\b|\{\{)|\*a\*\^\{\{.\}\}|\ba\^c\b"
 """A usual sign in a sentence."""
 MEANINGS: Mapping[str, str] = MappingProxyType(
     {

@@ -105,14 +105,14 @@ def listed(names: Iterable[str], most: int = 12) -> str:
 # --- comma-separated values -----------------------------------------------------------------------
 
 
-NUMBER = re.compile(r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?", re.ASCII)
-RUNS = re.compile(r"""^(?=\s*[=+\-@＝＋－＠]|[\t\r\n])|([;\t\r\n][\s"]*)(?=[=+\-@＝＋－＠])""")
+NUMBER = r"[+-]?(?:[0-9]+(?:[.,][0-9]*)?|[.,][0-9]+)(?:[eE][+-]?[0-9]+)?"
+RUNS = r"""^(?=\s*[=+\-@＝＋－＠]|[\t\r\n])|([;\t\r\n][\s"]*)(?=[=+\-@＝＋－＠])"""
 """The places where a spreadsheet reads what follows as a formula.
 
 They are the beginning of a text, and any end of a cell for a spreadsheet that expects semicolons or
 tabs between cells.
 """
-QUOTED = re.compile(r'[",;\t\r\n]')
+QUOTED = r'[",;\t\r\n]'
 """The signs that require quotes: some spreadsheet ends a cell at each of them."""
 
 
@@ -122,9 +122,9 @@ def safe(cell: object) -> str:
     A number stays a number, including -5.
     """
     text = str(cell)
-    if not isinstance(cell, str) or NUMBER.fullmatch(text):
+    if not isinstance(cell, str) or re.fullmatch(NUMBER, text):
         return text
-    return RUNS.sub(r"\1'", text)
+    return re.sub(RUNS, r"\1'", text)
 
 
 def csv_text(rows: Iterable[Sequence[object]], end: str = "\r\n") -> str:
@@ -136,4 +136,4 @@ def csv_text(rows: Iterable[Sequence[object]], end: str = "\r\n") -> str:
 
 def quoted(text: str) -> str:
     """A cell, in quotes if it needs them."""
-    return '"' + text.replace('"', '""') + '"' if QUOTED.search(text) else text
+    return '"' + text.replace('"', '""') + '"' if re.search(QUOTED, text) else text

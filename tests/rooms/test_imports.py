@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.text.hooks import DONE_BY, service
+from graphkin import SERVICES
+from graphkin.text.hooks import service
 from tests.rooms.sources import HOUSE, ROOT, source
 
 ORDER = (
@@ -123,7 +124,7 @@ def test_who_renders_a_service_is_there():
     """The package itself says what upper rooms do for lower ones: no lower room names them."""
     import graphkin  # noqa: F401
 
-    assert all(callable(service(name)) for name in DONE_BY)
+    assert all(callable(service(name)) for name in SERVICES)
     with pytest.raises(LookupError, match="nobody renders 'tea'"):
         service("tea")
 
