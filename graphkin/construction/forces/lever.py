@@ -7,6 +7,7 @@ enters, so the lever gives the balance of the driver without any polygon (N. E. 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -18,7 +19,13 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.loads import LENGTH, LinkForce, newtons, on_lever, signed
-from graphkin.construction.forces.moments import SEEN, arm, of_moments, right_angle
+from graphkin.construction.forces.moments import (
+    SEEN,
+    arm,
+    of_moments,
+    pairs_and_couples,
+    right_angle,
+)
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -78,14 +85,10 @@ def lever_rate(omega: Real, *rest: Any) -> Real:
 
 def power_of(rest: tuple[Any, ...]) -> Real:
     """The sum of the moments of all loads on the lever."""
-    *terms, count = rest
-    pairs = int(count)
+    pairs, couples = pairs_and_couples(rest)
     total: Any = 0.0
-    for k in range(pairs):
-        foot, force = terms[2 * k : 2 * k + 2]
-        total = total + cross(foot, force)
-    for couple in terms[2 * pairs :]:
-        total = total + couple
+    for moment in chain((cross(foot, force) for foot, force in pairs), couples):
+        total = total + moment
     return total
 
 

@@ -7,7 +7,7 @@ which the lines of two other bars meet (Assur's point).
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Any, ClassVar
 
@@ -16,16 +16,15 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
-from graphkin.construction.forces.loads import force_amount, newtons
 from graphkin.construction.forces.moments import (
     SEEN,
+    ForceByMoments,
     Moments,
     arm,
     line_arm,
     moment_sum,
-    of_moments,
 )
 from graphkin.construction.forces.polygon import SideDirection, links_words
 from graphkin.drawing.symbol_markup import symbol
@@ -49,7 +48,7 @@ def line_force(about: Point, foot: Point, line: Line, *rest: Any) -> Point:
     return -moment_sum(about, rest) / cross(foot - about, unit) * unit
 
 
-class LineForce(Construction, frozen=True, kw_only=True):
+class LineForce(ForceByMoments, frozen=True, kw_only=True):
     """The force ``name`` on some ``links`` along a line, with its arm and the arm's symbol.
 
     ``way`` is the line in words; ``through`` is a point on it at which the force acts. ``cam`` says
@@ -58,16 +57,14 @@ class LineForce(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_line"}
+    none: ClassVar[str] = "step.force-line-none"
 
-    name: str
     number: str
     links: tuple[str, ...]
     way: SideDirection
     cam: bool
-    moments: Moments
     through: int
     foot: int
-    force: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the line as far as the foot, and the arm with its dimension."""
@@ -78,53 +75,18 @@ class LineForce(Construction, frozen=True, kw_only=True):
             return
         line_arm(canvas, (self.name, self.number), about, through, end)
 
-    def symbols(self) -> Mapping[str, str]:
-        """The point about which the moments are taken."""
-        return {"b": symbol(self.moments.letter)}
+    def sentence_key(self, drawing: Drawing) -> str:
+        return "step.force-normal" if self.cam else "step.force-line"
 
-    def size(self, drawing: Drawing) -> float:
-        """The magnitude of the force in N; zero for rounding."""
-        return drawing.settled(abs(drawing.trace.values[self.force]))
+    def fields(self, drawing: Drawing) -> Mapping[str, str]:
+        """The links, the line and the arm."""
+        links, way = links_words(drawing, self.links), self.way.words(drawing)
+        return {**super().fields(drawing), "k": links, "way": way, "h": symbol(self.number)}
 
-    def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """The moment equation, and the size of the force."""
-        if role != "force":
-            return ""
-        size = self.size(drawing)
-        key = "step.force-normal" if self.cam else "step.force-line"
-        return drawing.words(
-            key if size else "step.force-line-none",
-            k=links_words(drawing, self.links),
-            b=symbol(self.moments.letter),
-            r=symbol(self.name),
-            way=self.way.words(drawing),
-            h=symbol(self.number),
-            below=self.below(drawing),
-            sum=self.moments.positive(drawing),
-            size=newtons(drawing, size),
-            drawn=force_amount(drawing, size),
-        )
-
-    def below(self, drawing: Drawing) -> str:
-        """The arm in symbols; in metres where there are couples."""
-        below: str = symbol(self.number)
-        return f"({below}·*k*_L)" if self.moments.in_metres(drawing) else below
-
-    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The sum of moments divided by the arm."""
-        size, values = self.size(drawing), drawing.trace.values
-        if role != "force" or not size:
-            return
-        put = figure(drawing, drawing.on_paper(abs(values[self.foot] - values[self.moments.about])))
-        if self.moments.in_metres(drawing):
-            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
-        yield of_moments(
-            (symbol(self.name), answer(drawing, size), "N"),
-            symbol(self.moments.letter),
-            (self.moments.positive(drawing), self.moments.positive(drawing, figures=True)),
-            (self.below(drawing), put),
-            by=symbol(self.number),
-        )
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The distance of the line."""
+        foot, about = (drawing.trace.values[n] for n in (self.foot, self.moments.about))
+        return [(symbol(self.number), figure(drawing, drawing.on_paper(abs(foot - about))))]
 
 
 class AssurPoint(Construction, frozen=True, kw_only=True):
