@@ -9,7 +9,7 @@ The balance of a driven crank: the moment that keeps its motion, from moments ab
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Any, ClassVar, NamedTuple
 
@@ -242,14 +242,9 @@ class Moments(Struct, frozen=True):
 
         return signed(((e[1] > 0) is not turned, of(*e)) for e in some)
 
-    def is_turned(self, drawing: Drawing) -> bool:
-        """Whether the sum is negative, so that its signs are reversed."""
-        return sum(moment for _, moment, _, _ in self.values(drawing)) < 0
-
-    def positive(self, drawing: Drawing) -> tuple[str, str]:
-        """The sum in symbols and in figures, with the signs that make it positive as a whole."""
-        turned = self.is_turned(drawing)
-        return self.symbols(drawing, turned=turned), self.figures(drawing, turned=turned)
+    def total(self, drawing: Drawing) -> float:
+        """The sum in N·m."""
+        return sum(moment for _, moment, _, _ in self.values(drawing))
 
     def in_metres(self, drawing: Drawing) -> bool:
         """Whether a couple among the terms needs arms in metres."""
@@ -264,15 +259,40 @@ def divisor(drawing: Drawing, *factors: tuple[str, str], metres: bool) -> tuple[
     return (symbols, figures) if len(factors) == 1 else (f"({symbols})", f"({figures})")
 
 
+def sums_of(drawing: Drawing, *every: Moments) -> tuple[str, str]:
+    """The sums of one or two links as one, in symbols and in figures, positive as a whole."""
+    shown = [each for each in every if each.shown(drawing)]
+    turned = sum(each.total(drawing) for each in shown) < 0
+    symbols = in_turn(each.symbols(drawing, turned=turned) for each in shown)
+    return symbols, in_turn(each.figures(drawing, turned=turned) for each in shown)
+
+
+def in_turn(sums: Iterable[str]) -> str:
+    """Sums one after the other as one sum."""
+    said = ""
+    for more in sums:
+        said += (f" − {more[1:]}" if more.startswith("−") else f" + {more}") if said else more
+    return said or "0"
+
+
 class ForceByMoments(Construction, frozen=True, kw_only=True):
-    """The ``force`` called ``name``: the sum of moments about a point, divided by its arm."""
+    """The ``force`` called ``name``: the sum of moments about a point, divided by its arm.
+
+    ``others`` are the moments of a second link, whose sum it balances too. ``none`` is the key of
+    the sentence where there is no force.
+    """
 
     none: ClassVar[str]
-    """The key of the sentence where there is no force."""
 
     name: str
     moments: Moments
+    others: Moments | None = None
     force: int
+
+    @property
+    def every(self) -> list[Moments]:
+        """The moments of its one or two links."""
+        return [each for each in (self.moments, self.others) if each is not None]
 
     @abstractmethod
     def sentence_key(self, drawing: Drawing) -> str:
@@ -282,17 +302,10 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The arm of the force on paper as a product: each factor in symbols and in figures."""
 
-    def sums(self, drawing: Drawing) -> tuple[str, str]:
-        """The sum of moments in symbols and in figures, positive as a whole."""
-        return self.moments.positive(drawing)
-
-    def in_metres(self, drawing: Drawing) -> bool:
-        """Whether its arm is in metres, beside couples."""
-        return self.moments.in_metres(drawing)
-
     def below(self, drawing: Drawing) -> tuple[str, str]:
         """The arm that divides the sum, in symbols and in figures."""
-        return divisor(drawing, *self.arm(drawing), metres=self.in_metres(drawing))
+        metres = any(each.in_metres(drawing) for each in self.every)
+        return divisor(drawing, *self.arm(drawing), metres=metres)
 
     def over(self, drawing: Drawing) -> str:
         """The arm in symbols as a form has it."""
@@ -313,7 +326,7 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
             **self.symbols(),
             "r": symbol(self.name),
             "below": self.below(drawing)[0],
-            "sum": self.sums(drawing)[0],
+            "sum": sums_of(drawing, *self.every)[0],
             "size": newtons(drawing, size),
             "drawn": force_amount(drawing, size),
         }
@@ -331,7 +344,7 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
             yield of_moments(
                 (symbol(self.name), answer(drawing, size), "N"),
                 symbol(self.moments.letter),
-                self.sums(drawing),
+                sums_of(drawing, *self.every),
                 self.below(drawing),
                 by=self.over(drawing),
             )
@@ -362,7 +375,7 @@ class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
 
     def fields(self, drawing: Drawing) -> Mapping[str, str]:
         """The link, and the sense of the loads."""
-        turned = self.moments.is_turned(drawing)
+        turned = self.moments.total(drawing) < 0
         own = {"k": escape(self.link), "sense": sense(drawing.words, 1 if turned else -1)}
         return {**super().fields(drawing), **own}
 
@@ -410,7 +423,7 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
             "r": symbol(self.name),
             "x": symbol(self.number),
             "mm": in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
-            "sum": self.moments.positive(drawing)[0],
+            "sum": sums_of(drawing, self.moments)[0],
         }
         key = (
             "step.force-place" if size and self.moments.shown(drawing) else "step.force-place-none"
@@ -427,7 +440,7 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
         yield of_moments(
             (symbol(self.number), shift, "mm"),
             symbol(self.moments.letter),
-            self.moments.positive(drawing),
+            sums_of(drawing, self.moments),
             divisor(drawing, force, metres=self.moments.in_metres(drawing)),
             by=symbol(self.name),
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -86,29 +86,10 @@ class SlidePressure(ForceByMoments, frozen=True, kw_only=True):
             "guide": way_of(drawing, self.block),
         }
 
-    def sums(self, drawing: Drawing) -> tuple[str, str]:
-        """The sums of both links one after the other."""
-        both = [each for each in (self.moments, self.others) if each.shown(drawing)]
-        turned = sum(m for each in both for _, m, _, _ in each.values(drawing)) < 0
-        symbols = (each.symbols(drawing, turned=turned) for each in both)
-        return in_turn(symbols), in_turn(each.figures(drawing, turned=turned) for each in both)
-
-    def in_metres(self, drawing: Drawing) -> bool:
-        """Whether either link has a couple."""
-        return self.moments.in_metres(drawing) or self.others.in_metres(drawing)
-
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The distance of the normal from the far pin."""
         foot, far = (drawing.trace.values[n] for n in (self.foot, self.moments.about))
         return [(symbol(self.number), figure(drawing, drawing.on_paper(abs(foot - far))))]
-
-
-def in_turn(sums: Iterable[str]) -> str:
-    """Sums one after the other as one sum."""
-    said = ""
-    for more in sums:
-        said += (f" − {more[1:]}" if more.startswith("−") else f" + {more}") if said else more
-    return said or "0"
 
 
 def pressure(
