@@ -507,30 +507,24 @@ def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: M
     return pen.make(part).force
 
 
-def couple_on_guide(pen: Pen, guide: int, reaction: int, moments: Moments) -> int | None:
-    """The couple that a guide carries where it has no reaction; None where no moment is left."""
-    if not moments.terms:
-        return None
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        return pen.draw(
-            left_couple, moments.about, guide, reaction, *moments.steps, extra=moments.extra
-        )
+def on_guide(
+    pen: Pen, name: str, link: str, guide: int, reaction: int, moments: Moments
+) -> tuple[int, int | None]:
+    """The place of a guide's reaction on a link, and the couple that replaces it where it is zero.
 
-
-def place_on_guide(
-    pen: Pen, name: str, number: str, link: str, guide: int, reaction: int, moments: Moments
-) -> int:
-    """The place of a guide's reaction: at the pin itself, where no force has a moment about it."""
+    It is at the pin itself, without a couple, where no force has a moment about that pin.
+    """
     if not moments.terms:
-        return moments.about
+        return moments.about, None
+    inputs = moments.about, guide, reaction, *moments.steps
     with pen.on(Part.FORCE, Plane.MECHANISM):
-        place = pen.draw(
-            place_by_moments, moments.about, guide, reaction, *moments.steps, extra=moments.extra
-        )
+        place = pen.draw(place_by_moments, *inputs, extra=moments.extra)
     found = PlaceOnGuide(
-        name=name, number=number, link=link, moments=moments, reaction=reaction, place=place
+        name=name, number=f"x_{link}", link=link, moments=moments, reaction=reaction, place=place
     )
-    return pen.make(found).place
+    pen.make(found)
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        return place, pen.draw(left_couple, *inputs, extra=moments.extra)
 
 
 class BalancingMoment(Construction, frozen=True, kw_only=True):
