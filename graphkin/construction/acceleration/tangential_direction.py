@@ -22,7 +22,7 @@ from graphkin.construction.normal_component.normal_component import (
     normal_component,
 )
 from graphkin.construction.plan import ACCELERATION
-from graphkin.construction.velocity.lines_through import (
+from graphkin.construction.velocity.relative_motion import (
     PerpendicularThrough,
     forgotten,
     square_to,
