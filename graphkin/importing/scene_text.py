@@ -30,14 +30,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
-from graphkin.text.errors import (
-    GraphkinError,
-    Message,
-    Problem,
-    joined,
-    message,
-    verbatim,
-)
+from graphkin.text.errors import GraphkinError, Message, Problem, joined, message, verbatim
 
 NAME = "import"
 DIGITS = 9
@@ -173,8 +166,7 @@ class SceneWriter:
             raise refused(message("nothing in it is driven"))
         self.notes.append(
             message(
-                "nothing is driven in the file; link {name} is, at speed 1",
-                name=self.numbers[own],
+                "nothing is driven in the file; link {name} is, at speed 1", name=self.numbers[own]
             )
         )
         return DrawnInput(own, 1.0, about)

@@ -351,13 +351,7 @@ HOUSE_KEYS = (
         "0.35",
         "thick",
     ),
-    HouseKey(
-        "signs",
-        SET,
-        text,
-        f"the signs of a school: {quoted(tuple(SCHOOLS))}",
-        '"english"',
-    ),
+    HouseKey("signs", SET, text, f"the signs of a school: {quoted(tuple(SCHOOLS))}", '"english"'),
     *(HouseKey("signs", name, text, MEANINGS[name], f'"{getattr(USUAL, name)}"') for name in NAMES),
 )
 """Every key of house.toml, in the order of its template."""

@@ -9,15 +9,7 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.scene.link_points import ends_of
-from graphkin.scene.model import (
-    Rolling,
-    Scene,
-    Slide,
-    Wheel,
-    joined_words,
-    link_words,
-    of_one_size,
-)
+from graphkin.scene.model import Rolling, Scene, Slide, Wheel, joined_words, link_words, of_one_size
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError, both, message
 

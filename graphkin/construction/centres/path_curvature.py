@@ -284,9 +284,7 @@ class PathCentre(Centre, frozen=True, kw_only=True):
             result,
             "m",
             words(
-                "calculation.radius_drawn",
-                bar=symbol(p) + drawing.symbol(self.name),
-                drawn=drawn,
+                "calculation.radius_drawn", bar=symbol(p) + drawing.symbol(self.name), drawn=drawn
             ),
         )
 

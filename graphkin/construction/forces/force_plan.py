@@ -16,11 +16,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
-from graphkin.construction.core.quantities import (
-    BALANCING_FORCE,
-    BALANCING_MOMENT,
-    PAIR_REACTION,
-)
+from graphkin.construction.core.quantities import BALANCING_FORCE, BALANCING_MOMENT, PAIR_REACTION
 from graphkin.construction.core.vocabulary import along_bar
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import (
@@ -534,11 +530,7 @@ class ForcePlan:
         names = "F_" + sub("b", link), self.name(pair, link)
         closed = polygon.close(names, ways, ("balance", REACTION))
         push = polygon.reaction(
-            names[0],
-            closed.corner,
-            polygon.start,
-            drawn=False,
-            quantity=BALANCING_FORCE.target,
+            names[0], closed.corner, polygon.start, drawn=False, quantity=BALANCING_FORCE.target
         )
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
         where = pen.the("position", point)

@@ -146,7 +146,7 @@ class ForceArm(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot",)
     slips: ClassVar[Mapping[str, Slip]] = {
-        "arm_slanted": Slip(1, "moderate", ("foot",), taken=slanted),
+        "arm_slanted": Slip(1, "moderate", ("foot",), taken=slanted)
     }
 
     name: str

@@ -144,7 +144,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
             ("one", "other"),
             normal_to_guide,
             lambda kind, line, get: Line(line.point, 1j * line.along),
-        ),
+        )
     }
 
     kind: str

@@ -217,13 +217,7 @@ def tooth(
             tooth_force, moments.about, pitch, *moments.steps, extra=(*moments.extra, slant)
         )
     found = ToothForce(
-        name=name,
-        link=link,
-        angle=angle,
-        moments=moments,
-        pitch=pitch,
-        force=force,
-        across=across,
+        name=name, link=link, angle=angle, moments=moments, pitch=pitch, force=force, across=across
     )
     return pen.make(found)
 

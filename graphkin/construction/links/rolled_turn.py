@@ -94,10 +94,7 @@ class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
             s = angle_symbol(drawing.scene, self.driver)
         else:
             radius, way = (radius, way) if way >= 0 else (-radius, -way)
-            ends = {
-                "start": place(drawing, self.on, self.through),
-                "end": symbol(self.touching),
-            }
+            ends = {"start": place(drawing, self.on, self.through), "end": symbol(self.touching)}
             read = as_read(drawing, drawing.on_paper(way), drawing.scales.kL / 1000)
             yield Relation(s, "", *read, "m", words("calculation.measured_way", **ends))
         sign, sense = ("−", -1) if radius > 0 else ("+", 1)
