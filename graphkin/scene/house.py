@@ -117,7 +117,6 @@ class HouseKey(Struct, frozen=True):
 
 
 def text(table: Table, key: str, folder: str) -> str:
-    """A text."""
     return table.text(key)
 
 

@@ -117,12 +117,10 @@ class TriedLink(OneLink, frozen=True):
 
     @property
     def words(self) -> str:
-        """The tried link and its pair."""
         return f"tried at link {self.link} on {self.pair.brief}"
 
 
 def other_of(driver: Driver, link: str) -> str:
-    """The other link of a driver."""
     return driver.against if driver.link == link else driver.link
 
 

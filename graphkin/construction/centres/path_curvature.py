@@ -172,7 +172,6 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
         return drawing.words("step.curvature-edge", tip=drawing.symbol(names[1]), side=bar(*names))
 
     def places(self, drawing: Drawing) -> Places:
-        """The tip."""
         return {drawing.trace.program.steps[self.tip].name: drawing.trace.values[self.tip]}
 
 

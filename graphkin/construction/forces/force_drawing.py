@@ -113,11 +113,9 @@ class ForceDrawing(Drawing, frozen=True):
         return next(iter(self.moments.get(link, {}).values()), None)
 
     def turning_name(self, link: str) -> str:
-        """The name of the moment on a link."""
         return next(iter(self.moments[link]))
 
     def turnings(self, link: str) -> Mapping[str, float]:
-        """All moments on a link."""
         return self.moments.get(link, {})
 
     @cached_property

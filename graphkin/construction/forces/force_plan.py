@@ -171,7 +171,6 @@ class DyadSide(NamedTuple):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Its links."""
         return tuple(dict.fromkeys((self.near, self.far)))
 
     @property
@@ -237,7 +236,6 @@ class ForcePlan:
     # --- names and reactions ---------------------------------------------------------------------
 
     def new_polygon(self, links: Sequence[str], kind: str) -> Polygon:
-        """The next polygon."""
         return Polygon(self.pen, next(self.polygons), links, kind)
 
     def partner(self, pair: Joint | CamPair, link: str) -> str:

@@ -231,7 +231,6 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     first: str = ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the reaction."""
         if role == "arrow":
             draw_force(canvas, self.name, REACTION, canvas.value(self.tail), canvas.value(self.tip))
 

@@ -66,7 +66,6 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
         return [*found, *self.own(drawing)]
 
     def own(self, drawing: Drawing) -> Iterator[Relation]:
-        """Its own relation."""
         raise NotImplementedError
 
 

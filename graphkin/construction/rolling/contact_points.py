@@ -201,7 +201,6 @@ class CentrePath(Construction, frozen=True, kw_only=True):
     line: int
 
     def path_name(self, drawing: Drawing) -> str:
-        """The words for the path of the centre."""
         return drawing.words("page.trajectory", of=symbol(self.centre))
 
     def clause(self, drawing: Drawing, role: str) -> str:
