@@ -218,11 +218,6 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         assert self.force is not None
         return drawing.settled(abs(values[self.force]))
 
-    def by_polygon(self, drawing: Drawing) -> float:
-        """The same by the polygons of forces."""
-        value = drawing.trace.values[self.other]
-        return float(value) if self.moment is not None else abs(value)
-
     def difference(self, drawing: Drawing) -> float:
         """The difference of both routes, as a share of the larger one."""
         values = drawing.trace.values
