@@ -19,7 +19,7 @@ from graphkin.construction.core.run import StepFailed, Trace, evaluate
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import is_ball
-from graphkin.numbers.formal import FORMAL, Formal, letter, point
+from graphkin.numbers.exact import FORMAL, Formal, letter, point
 from graphkin.numbers.kinds import ball_kind, in_doubles, is_real_ball
 from graphkin.numbers.plane import by_parts
 from graphkin.scene.expression import TIME

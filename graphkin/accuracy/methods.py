@@ -57,7 +57,6 @@ class Effort(Struct, frozen=True):
     compiled: bool = True
 
     def watch(self, clock: Clock, say: Callable[[str], None]) -> Stopwatch:
-        """The stopwatch for this effort."""
         return Stopwatch(self.rounds, self.least, self.patience, clock=clock, say=say)
 
 

@@ -189,11 +189,7 @@ def worst_of(found: Forecast, answers: ComparedTargets) -> Reals:
 
 
 def pencilled(
-    ground: Ground,
-    answers: ComparedTargets,
-    scales: Scales,
-    flattening: Flattening,
-    drawn: int,
+    ground: Ground, answers: ComparedTargets, scales: Scales, flattening: Flattening, drawn: int
 ) -> tuple[Reals, Reals]:
     """Measures (G,) and errors (G, 3) of a fine pencil at ``drawn`` places towards a dead point.
 

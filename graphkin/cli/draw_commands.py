@@ -268,11 +268,7 @@ def cycle(
     help="Use few positions for a first look: time decimals and balls at one, the pencil at four"
     " towards a dead point.",
 )
-@formats_option(
-    "svg,png",
-    "svg,png",
-    "Kinds of picture to write; the table is CSV.",
-)
+@formats_option("svg,png", "svg,png", "Kinds of picture to write; the table is CSV.")
 @force_option
 def accuracy(
     name: str, settings: tuple[str, ...], folder: Path, quick: bool, formats: str, force: bool

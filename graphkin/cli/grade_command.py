@@ -250,13 +250,7 @@ def grade(  # noqa: PLR0915
     words = opened.words(lang)
     processes = jobs or usual_jobs(opened)
     found = graded_class(
-        opened.book,
-        opened.takers,
-        given.of,
-        processes,
-        free.ids,
-        decisions,
-        as_it_is=as_it_is,
+        opened.book, opened.takers, given.of, processes, free.ids, decisions, as_it_is=as_it_is
     )
     pins = pins_of(opened, drawings) if drawings != answers else {}
     found = replace(found, graded=tuple(remarked(g, desk.remarks, pins) for g in found.graded))

@@ -358,9 +358,7 @@ def formats_option(metavar: str, default: str, help: str) -> Option:
     )
 
 
-def jobs_option(
-    help: str = "Processes that draw at once; by default one for each core.",
-) -> Option:
+def jobs_option(help: str = "Processes that draw at once; by default one for each core.") -> Option:
     """The option --jobs: how many processes work at once."""
     return click.option("--jobs", metavar="N", type=click.IntRange(1, 1024), help=help)
 

@@ -134,7 +134,6 @@ def board_given(drawings: Sequence[Drawing]) -> BoardGiven:
 
 
 def pole_key(plane: int) -> str:
-    """The key of the pole of a plan."""
     return f"{plane}:"
 
 
@@ -260,7 +259,6 @@ class Board:
         raise KeyError(key)
 
     def value_of(self, key: str) -> Any:
-        """The value of a thing."""
         return self.thing(key).value
 
     def way(self, key: str) -> complex:

@@ -101,15 +101,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     and ``foot`` is the tip of 2v. The lines ``edge`` and ``lean`` meet in ``top``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = (
-        "velocity",
-        "foot",
-        "edge",
-        "lean",
-        "top",
-        "read",
-        "vector",
-    )
+    gives: ClassVar[tuple[str, ...]] = ("velocity", "foot", "edge", "lean", "top", "read", "vector")
     sign: ClassVar[str] = "c"
     look: ClassVar[str] = "coriolis"
     effect: ClassVar[Effect] = "Coriolis"
@@ -117,18 +109,9 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     laid_off_reason: ClassVar[str] = "why.coriolis"
     follows: ClassVar[bool] = True
     gives_way: ClassVar[bool] = True
-    reasons: ClassVar[Mapping[str, str]] = {
-        "foot": "why.coriolis",
-        "top": "why.triangles",
-    }
+    reasons: ClassVar[Mapping[str, str]] = {"foot": "why.coriolis", "top": "why.triangles"}
     lines: ClassVar[Mapping[str, str]] = {"lean": "the leaning line", "edge": "⊥ at {foot}"}
-    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
-        (
-            "velocity",
-            "foot",
-        ),
-        ByHand.LAID_OFF,
-    )
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("velocity", "foot"), ByHand.LAID_OFF)
     slips: ClassVar[Mapping[str, Slip]] = {
         "coriolis_missing": Slip(0, "serious"),
         "coriolis_reversed": Slip(-1, "moderate"),

@@ -32,7 +32,7 @@ from graphkin.construction.velocity.image_of_link import (
     source_of,
     translated_image,
 )
-from graphkin.construction.velocity.lines_through import parallel_through, perpendicular_through
+from graphkin.construction.velocity.relative_motion import parallel_through, perpendicular_through
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie, other_of
 from graphkin.structure.joints import partner

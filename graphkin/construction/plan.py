@@ -42,7 +42,6 @@ class Plan(Struct, frozen=True):
     prime: str = ""
 
     def named(self, point: str) -> str:
-        """The name of the image of a point."""
         return str(image_name(point, self.prime))
 
     def drawn(self, pen: Pen) -> AbstractContextManager[None]:

@@ -104,17 +104,14 @@ class SheetPaper(Struct, frozen=True, dict=True):
 
     @property
     def half(self) -> float:
-        """Half the width."""
         return self.width / 2
 
     @property
     def middle(self) -> XY:
-        """The middle of the sheet."""
         return self.half, self.height / 2
 
     @property
     def whole(self) -> Rect:
-        """All of the sheet."""
         return 0.0, 0.0, self.width, self.height
 
     @property

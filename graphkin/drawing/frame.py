@@ -515,9 +515,7 @@ def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
         if len(lines) > 2:
             fits = len(plain(" ".join(lines[:2])))
             found = message(
-                "“{text}” is too long: {count} letters",
-                text=plain(first),
-                count=len(plain(first)),
+                "“{text}” is too long: {count} letters", text=plain(first), count=len(plain(first))
             )
             raise PageError(
                 Problem(

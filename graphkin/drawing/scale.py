@@ -118,7 +118,6 @@ class Extent(Struct, frozen=True):
 
     @property
     def sides(self) -> tuple[Real, Real, Real, Real]:
-        """Left, bottom, right and top."""
         return self.left, self.bottom, self.right, self.top
 
     @property

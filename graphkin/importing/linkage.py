@@ -197,10 +197,7 @@ def rods(
 
 
 def carrier(
-    one: Element,
-    other: Element,
-    joints: Mapping[str, DrawnJoint],
-    bodies: Mapping[str, DrawnLink],
+    one: Element, other: Element, joints: Mapping[str, DrawnJoint], bodies: Mapping[str, DrawnLink]
 ) -> str | None:
     """The body that has two connectors, empty for the frame; None where there is none."""
     both = {one.attrib["id"], other.attrib["id"]}

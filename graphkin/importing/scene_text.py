@@ -31,14 +31,7 @@ from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Dyad, Group, Higher, Stretched
 from graphkin.structure.pairs import Pin
-from graphkin.text.errors import (
-    GraphkinError,
-    Message,
-    Problem,
-    joined,
-    message,
-    verbatim,
-)
+from graphkin.text.errors import GraphkinError, Message, Problem, joined, message, verbatim
 
 NAME = "import"
 DIGITS = 9

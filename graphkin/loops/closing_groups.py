@@ -290,10 +290,7 @@ def larger(net: Net, known: frozenset[str]) -> Group | None:
 
 
 def group_of(
-    links: tuple[str, ...],
-    known: frozenset[str],
-    every: tuple[Joint, ...],
-    ties: tuple[Joint, ...],
+    links: tuple[str, ...], known: frozenset[str], every: tuple[Joint, ...], ties: tuple[Joint, ...]
 ) -> Group:
     """The group of some links, with those of their joints that belong to it."""
     mine = set(links)

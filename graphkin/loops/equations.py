@@ -188,11 +188,7 @@ class Drives(Struct, frozen=True, eq=False):
         lean, leaning, aim = self.lean[:, :0], self.leaning[:, :0], self.aim[:, :0]
         given, rates = (
             self.given[:, :0],
-            (
-                self.speed[:, :0],
-                self.acceleration[:, :0],
-                self.jerk[:, :0],
-            ),
+            (self.speed[:, :0], self.acceleration[:, :0], self.jerk[:, :0]),
         )
         left = lean, leaning, aim, given
         none = self.selects[:0], self.turns[:0], *left, self.whole, *rates
@@ -247,11 +243,7 @@ def drives_of(
 
 
 def bases_of(
-    scene: Scene,
-    turned: Turnings,
-    own_turns: OwnTurns,
-    numbers: Numbers,
-    known: Mapping[str, int],
+    scene: Scene, turned: Turnings, own_turns: OwnTurns, numbers: Numbers, known: Mapping[str, int]
 ) -> tuple[CountedApart, ...]:
     """The links that drivers turn others from, where these turn as one with further links.
 

@@ -151,9 +151,7 @@ class Motion(Struct, frozen=True, eq=False):
         arm = place - start
         omega, epsilon = self.omega[:, i], self.epsilon[:, i]
         return PlaceMotion(
-            place,
-            velocity + 1j * omega * arm,
-            acceleration + (1j * epsilon - omega**2) * arm,
+            place, velocity + 1j * omega * arm, acceleration + (1j * epsilon - omega**2) * arm
         )
 
     def place(self, name: str) -> Complexes:

@@ -361,9 +361,7 @@ class LoopSolution(Struct, frozen=True, eq=False):
 
 
 def solve(
-    loops: Equations,
-    places: Mapping[str, object],
-    slides: Mapping[str, object] | None = None,
+    loops: Equations, places: Mapping[str, object], slides: Mapping[str, object] | None = None
 ) -> LoopSolution:
     """Close the loops from given positions of points (m) and find the motion.
 

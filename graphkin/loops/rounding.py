@@ -225,12 +225,7 @@ class RateBounds(Struct, frozen=True, eq=False):
 
     @classmethod
     def of(
-        cls,
-        motion: Motion,
-        unknowns: Reals,
-        rates: Reals,
-        seconds: Reals | None,
-        jacobian: Reals,
+        cls, motion: Motion, unknowns: Reals, rates: Reals, seconds: Reals | None, jacobian: Reals
     ) -> RateBounds:
         """The bounds at a position, as ``rounding`` takes it."""
         loops = motion.loops

@@ -415,11 +415,7 @@ def inputs(scene: Scene) -> frozenset[str]:
 
 
 def sweep_of(
-    scene: Scene,
-    *,
-    driver: int | None = None,
-    low: float | None = None,
-    high: float | None = None,
+    scene: Scene, *, driver: int | None = None, low: float | None = None, high: float | None = None
 ) -> Sweep:
     """The sweep of a scene, over one driver's position or over the time.
 

@@ -69,11 +69,7 @@ def following(course: Course, start: float, links: Iterable[str] | None = None) 
 
 
 def led(
-    course: Course,
-    start: float,
-    stop: float,
-    step: float = 0.0,
-    links: Sequence[str] | None = None,
+    course: Course, start: float, stop: float, step: float = 0.0, links: Sequence[str] | None = None
 ) -> Course:
     """The course with counted links, or some of them, followed from one u to another.
 

@@ -152,11 +152,7 @@ def refuse_bombs(text: str) -> None:
         if len(line) > LONGEST_LINE:
             found = message("a line of {count} characters", count=len(line))
             raise SceneError(
-                in_line(
-                    InLine(number),
-                    found,
-                    message("at most {most}", most=LONGEST_LINE),
-                )
+                in_line(InLine(number), found, message("at most {most}", most=LONGEST_LINE))
             )
         if line.count(".") >= 16 and re.search(DOTTED, line):
             found = message("a key of very many parts")

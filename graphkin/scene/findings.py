@@ -88,7 +88,6 @@ class Table:
         return key in self.raw
 
     def at(self, key: str) -> str:
-        """The place of one key."""
         return f"{self.place}.{shown_key(key)}" if self.place else shown_key(key)
 
     def take(self, key: str) -> object:

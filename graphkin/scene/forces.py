@@ -109,7 +109,6 @@ class Forces(Struct, frozen=True):
 
     @property
     def asked(self) -> bool:
-        """Whether any reaction or the balance is asked."""
         return bool(self.reactions) or self.balance
 
     def motions(self) -> Iterator[tuple[str, str]]:

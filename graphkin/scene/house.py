@@ -117,7 +117,6 @@ class HouseKey(Struct, frozen=True):
 
 
 def text(table: Table, key: str, folder: str) -> str:
-    """A text."""
     return table.text(key)
 
 
@@ -351,13 +350,7 @@ HOUSE_KEYS = (
         "0.35",
         "thick",
     ),
-    HouseKey(
-        "signs",
-        SET,
-        text,
-        f"the signs of a school: {quoted(tuple(SCHOOLS))}",
-        '"english"',
-    ),
+    HouseKey("signs", SET, text, f"the signs of a school: {quoted(tuple(SCHOOLS))}", '"english"'),
     *(HouseKey("signs", name, text, MEANINGS[name], f'"{getattr(USUAL, name)}"') for name in NAMES),
 )
 """Every key of house.toml, in the order of its template."""

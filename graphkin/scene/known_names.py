@@ -119,8 +119,7 @@ def read_names(table: Table, findings: Findings) -> dict[str, Names]:
         for link, name in found[language].items():
             if not is_printable_name(name):
                 expected = message(
-                    "a letter, then letters, digits or _, at most {most}",
-                    most=LONGEST_NAME,
+                    "a letter, then letters, digits or _, at most {most}", most=LONGEST_NAME
                 )
                 findings.add(own.at(link), shown(name), expected)
     table.known.extend(LANGUAGES)

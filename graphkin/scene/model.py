@@ -399,7 +399,6 @@ class Link(Struct, frozen=True):
 
     @property
     def paths(self) -> tuple[GuideOrTrack, ...]:
-        """The guides and tracks on which the link slides and rolls."""
         return (*self.slides, *self.rolls)
 
     @property

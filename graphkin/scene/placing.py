@@ -335,9 +335,7 @@ def read_shape(table: Table, measures: Measures) -> tuple[tuple[str, ...], tuple
     if len(sketch.points) > MOST_POINTS:
         found = message("{count} points", count=len(sketch.points))
         measures.findings.add(
-            table.place,
-            found,
-            message("at most {most} on one link", most=MOST_POINTS),
+            table.place, found, message("at most {most} on one link", most=MOST_POINTS)
         )
         return tuple(sketch.points), ()
     lay_end_to_end(sketch)

@@ -482,8 +482,7 @@ def read_law(
     if not isinstance(raw, list) or not 0 < len(raw) <= MOST_PIECES:
         found = message("is missing") if raw is None else shown(raw)
         expected = message(
-            "at most {most} pieces: [ {{ to = 120, rise = 20, motion = … }}, … ]",
-            most=MOST_PIECES,
+            "at most {most} pieces: [ {{ to = 120, rise = 20, motion = … }}, … ]", most=MOST_PIECES
         )
         findings.add(place, found, expected)
         return ()

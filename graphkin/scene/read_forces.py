@@ -7,16 +7,7 @@ from itertools import pairwise
 from math import ceil, pi
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
-from graphkin.scene.forces import (
-    ByDriver,
-    Components,
-    Directed,
-    Forces,
-    Load,
-    Mass,
-    Size,
-    Spring,
-)
+from graphkin.scene.forces import ByDriver, Components, Directed, Forces, Load, Mass, Size, Spring
 from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, MASS_KEYS, Scene, link_words

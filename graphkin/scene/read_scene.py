@@ -306,8 +306,7 @@ def read_links(
             measures.findings.add(place, message("the frame among the links"), message("[frame]"))
         elif not is_link_name(name):
             expected = message(
-                "a number, or a letter and letters, digits or _, at most {most}",
-                most=LONGEST_NAME,
+                "a number, or a letter and letters, digits or _, at most {most}", most=LONGEST_NAME
             )
             measures.findings.add(place, message("no name of a link"), expected)
         elif not isinstance(raw, dict):

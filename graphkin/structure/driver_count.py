@@ -48,12 +48,7 @@ APART = 1e-9
 
 def impossible(scene: Scene) -> list[Problem]:
     """The problems of all guides, wheels and drivers that cannot work as written."""
-    return [
-        *wheels_alone(scene),
-        *double_guides(scene),
-        *unknown_leans(scene),
-        *unturnable(scene),
-    ]
+    return [*wheels_alone(scene), *double_guides(scene), *unknown_leans(scene), *unturnable(scene)]
 
 
 def wheels_alone(scene: Scene) -> Iterator[Problem]:

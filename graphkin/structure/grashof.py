@@ -21,13 +21,7 @@ from graphkin.structure.pairs import Joint, Pin, Sliding
 EVEN = 1e-9
 """Relative difference below which two sums of lengths count as equal."""
 
-Kind = Literal[
-    "crank-rocker",
-    "double crank",
-    "double rocker",
-    "triple rocker",
-    "change point",
-]
+Kind = Literal["crank-rocker", "double crank", "double rocker", "triple rocker", "change point"]
 
 
 class FourBar(Struct, frozen=True):

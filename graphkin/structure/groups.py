@@ -186,7 +186,6 @@ class KeptParallel(OneLink, frozen=True):
 
     @property
     def bars(self) -> tuple[str, ...]:
-        """The bars of all sets."""
         return tuple(bar for each in self.sets for bar in each.bars)
 
     @property
@@ -254,7 +253,6 @@ class Stretched(Struct, frozen=True):
 
     @property
     def drivers(self) -> tuple[Driver, ...]:
-        """The drivers of the cylinders."""
         return tuple(each.driver for each in self.cylinders)
 
     @property
@@ -417,5 +415,4 @@ Group = (
 
 
 def titled(group: CamFollower | Stretched | Unresolved) -> str:
-    """The title of a group with its links."""
     return f"{group.title}: {joined_words(group.links)}"

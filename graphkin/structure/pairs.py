@@ -9,15 +9,7 @@ from typing import ClassVar
 from msgspec import Struct
 
 from graphkin.scene.link_points import ends_of
-from graphkin.scene.model import (
-    Rolling,
-    Scene,
-    Slide,
-    Wheel,
-    joined_words,
-    link_words,
-    of_one_size,
-)
+from graphkin.scene.model import Rolling, Scene, Slide, Wheel, joined_words, link_words, of_one_size
 from graphkin.structure.turning import guides_under, turns
 from graphkin.text.errors import Problem, StructureError, both, message
 
@@ -58,7 +50,6 @@ class Pin(Struct, frozen=True):
 
     @property
     def words(self) -> str:
-        """The pin with the links that it joins."""
         return f"{self.brief} of {joined_words(self.links)}"
 
     @property
@@ -80,14 +71,12 @@ class Sliding(Struct, frozen=True):
 
     @property
     def words(self) -> str:
-        """The slide with the link on which its block slides."""
         return f"slide of block {self.block} on {link_words(self.links[1])}"
 
     brief = words
 
     @property
     def block(self) -> str:
-        """The link that slides."""
         return self.links[0]
 
     def led_point(self, scene: Scene, link: str) -> str:

@@ -117,12 +117,10 @@ class TriedLink(OneLink, frozen=True):
 
     @property
     def words(self) -> str:
-        """The tried link and its pair."""
         return f"tried at link {self.link} on {self.pair.brief}"
 
 
 def other_of(driver: Driver, link: str) -> str:
-    """The other link of a driver."""
     return driver.against if driver.link == link else driver.link
 
 
@@ -213,11 +211,6 @@ class Train(Struct, frozen=True):
     pivot: Pin
     centre: Pin
     contacts: tuple[Contact, Contact]
-
-    @property
-    def placed_by(self) -> tuple[Joint, ...]:
-        """Its pairs with known links except the pin."""
-        return self.contacts
 
     @property
     def links(self) -> tuple[str, str]:

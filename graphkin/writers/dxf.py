@@ -96,10 +96,7 @@ class Drawer:
         return name
 
     def shape(
-        self,
-        mark: LineMark | Polyline | CircleMark | Arc,
-        style: Style,
-        look: dict[str, Any],
+        self, mark: LineMark | Polyline | CircleMark | Arc, style: Style, look: dict[str, Any]
     ) -> None:
         """Draw a line, polyline, circle or arc; a mark without an outline is filled."""
         if isinstance(mark, LineMark):

@@ -6,16 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 
-from graphkin.drawing.marks import (
-    CircleMark,
-    LineMark,
-    Mark,
-    Page,
-    Point,
-    Polyline,
-    Text,
-    reach,
-)
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Point, Polyline, Text, reach
 from graphkin.drawing.richtext import PRIMES, TextPiece, pieces
 from graphkin.drawing.style import Ink, Style, style_of
 from graphkin.writers.svg import number

@@ -17,7 +17,6 @@ COLOURS = ("#1f5fa8", "#c8501e", "#2b8a5b", "#8a4fa3", "#b8860b", "#4a5a6a", "#c
 INK = "#26323c"
 FAINT = "#8895a0"
 PALE = "#dfe5ea"
-WARNING = "#b3261e"
 DOTS = 150
 """Dots per inch of a PNG."""
 FORMATS = ("svg", "png")

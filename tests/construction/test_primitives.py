@@ -21,7 +21,7 @@ from graphkin.construction.centres.instant_centre import acceleration_pole, inst
 from graphkin.construction.core import vocabulary
 from graphkin.construction.links import dyad_by_arcs
 from graphkin.construction.normal_component import normal_component
-from graphkin.construction.velocity import lines_through
+from graphkin.construction.velocity.relative_motion import square_to
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import (
     Circle,
@@ -369,7 +369,7 @@ def flat_dyads(draw):
 def dyad_within(sample: tuple[complex, ...]) -> tuple[bool, bool]:
     """Velocity to 4·eps·(L/lmin)/s², acceleration to 8·eps·(L/lmin)/s³, normwise."""
     p, q, x, v, w, a, b = sample
-    square, meet = lines_through.square_to, vocabulary.meet
+    square, meet = square_to, vocabulary.meet
     image = meet(square(v, p, x), square(w, q, x))
     corners = (
         (start + normal_component.normal(end, x, image_end, image))

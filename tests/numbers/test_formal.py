@@ -11,8 +11,7 @@ from typing import Any
 
 import pytest
 
-from graphkin.numbers.exact import Exact, IrrationalError
-from graphkin.numbers.formal import FORMAL, Formal, letter, point
+from graphkin.numbers.exact import FORMAL, Exact, Formal, IrrationalError, letter, point
 from graphkin.numbers.plane import Line, cross, line_meets_line
 
 TWO: dict[str, Callable[[Any, Any], Any]] = {

@@ -43,9 +43,7 @@ class Pencil(Struct, frozen=True):
     def __post_init__(self) -> None:
         problems = [
             Problem(
-                f"pencil.{name}",
-                verbatim(f"{value:g} {unit}"),
-                message("a number, zero or more"),
+                f"pencil.{name}", verbatim(f"{value:g} {unit}"), message("a number, zero or more")
             )
             for name, value, unit in (
                 ("point", self.point, "mm"),

@@ -335,7 +335,6 @@ def written(scene: Scene, length: float) -> str:
 
 
 def unit(scene: Scene) -> str:
-    """The unit of lengths of the scene."""
     return scene.units["length"]
 
 

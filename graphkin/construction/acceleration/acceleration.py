@@ -15,7 +15,7 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.plan import ACCELERATION, VELOCITY
 from graphkin.construction.velocity.image_of_link import image_under
-from graphkin.construction.velocity.lines_through import parallel_through
+from graphkin.construction.velocity.relative_motion import parallel_through
 from graphkin.scene.link_points import is_under
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Joint, Leading

@@ -17,12 +17,9 @@ from graphkin.construction.core.naming import letter_at
 from graphkin.construction.core.palette import PERPENDICULAR, KnownError, Picks
 from graphkin.construction.core.pen import Pen, about, acceleration_arrow, component_arrow, letter
 from graphkin.construction.core.program import Step
-from graphkin.construction.normal_component.normal_component import (
-    lay_off_normal,
-    normal_component,
-)
+from graphkin.construction.normal_component.normal_component import lay_off_normal, normal_component
 from graphkin.construction.plan import ACCELERATION
-from graphkin.construction.velocity.lines_through import (
+from graphkin.construction.velocity.relative_motion import (
     PerpendicularThrough,
     forgotten,
     square_to,

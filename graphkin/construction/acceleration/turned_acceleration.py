@@ -48,13 +48,7 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
 
     gives: ClassVar[tuple[str, ...]] = ("end", "image")
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
-    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
-        (
-            "end",
-            "image",
-        ),
-        ByHand.LAID_OFF,
-    )
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("end", "image"), ByHand.LAID_OFF)
     imaged: ClassVar[frozenset[str]] = frozenset({"end", "image"})
 
     start: int

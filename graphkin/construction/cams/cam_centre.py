@@ -331,11 +331,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         """
         words, spot = drawing.words, drawing.standing.spot
         way = spot(self.name) - spot(self.start)
-        fields = {
-            "name": symbol(self.name),
-            "g": escape(self.link),
-            "p": symbol(self.start),
-        }
+        fields = {"name": symbol(self.name), "g": escape(self.link), "p": symbol(self.start)}
         if abs(way) <= 1e-9 * drawing.standing.size:
             return words("step.cam-centre-dwell", law=self.law_words(drawing), **fields)
         step = drawing.trace.program.steps[self.point]

@@ -88,12 +88,7 @@ def of_height(drawing: Drawing, centre: CurvatureCentre) -> Iterator[Relation]:
     high = base + float(drawing.trace.values[centre.lift])
     lift, lifted, unit = next(centre.law_values(drawing))
     yield Relation(
-        words(
-            "calculation.face_height",
-            b=symbol(cam.point),
-            o=symbol(centre.start),
-            k=k,
-        )
+        words("calculation.face_height", b=symbol(cam.point), o=symbol(centre.start), k=k)
     )
     drawn = in_mm(words, drawing.on_paper(high))
     remark = words("calculation.guide_drawn", guide=way_of(drawing, centre.follower), drawn=drawn)

@@ -100,10 +100,7 @@ def best(
 
 
 def squarest_lines(
-    links: Sequence[str],
-    pair: Pair,
-    joined: Mapping[str, set[str]],
-    centres: Mapping[Pair, Spot],
+    links: Sequence[str], pair: Pair, joined: Mapping[str, set[str]], centres: Mapping[Pair, Spot]
 ) -> tuple[float, Pair] | None:
     """The two lines to a centre that cross closest to a right angle; None where no two cross."""
     over = [link for link in links if link in joined[pair[0]] and link in joined[pair[1]]][:MOST]

@@ -188,7 +188,6 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
         return drawing.words("step.curvature-edge", tip=drawing.symbol(names[1]), side=bar(*names))
 
     def places(self, drawing: Drawing) -> Places:
-        """The tip."""
         return {drawing.trace.program.steps[self.tip].name: drawing.trace.values[self.tip]}
 
 
@@ -300,9 +299,7 @@ class PathCentre(Centre, frozen=True, kw_only=True):
             result,
             "m",
             words(
-                "calculation.radius_drawn",
-                bar=symbol(p) + drawing.symbol(self.name),
-                drawn=drawn,
+                "calculation.radius_drawn", bar=symbol(p) + drawing.symbol(self.name), drawn=drawn
             ),
         )
 

@@ -26,15 +26,7 @@ from graphkin.structure.groups import (
     Unresolved,
 )
 from graphkin.structure.joints import partner
-from graphkin.structure.pairs import (
-    Contact,
-    ContactName,
-    Joint,
-    Pin,
-    PinLine,
-    Sliding,
-    contacts,
-)
+from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, PinLine, Sliding, contacts
 from graphkin.text.errors import NO_WORDS, Problem, StructureError, joined, message
 
 

@@ -73,7 +73,6 @@ class Drawing(Struct, frozen=True, dict=True):
 
     @property
     def paper(self) -> SheetPaper:
-        """The paper of this sheet."""
         return paper_of(self.scene.sheet.paper, self.scene.sheet.frame)
 
     @property

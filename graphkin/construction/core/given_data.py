@@ -293,12 +293,7 @@ def which_way(drawing: Drawing, link: Link, slide: Slide) -> str:
         fields = {"side": words(f"page.{nearest_side(line[1] * branch.way)}")}
         if found.name == link.points[0]:
             return words("page.way", pivot=symbol(found.centre), **fields)
-        return words(
-            "page.way_of",
-            pin=symbol(found.name),
-            pivot=symbol(found.centre),
-            **fields,
-        )
+        return words("page.way_of", pin=symbol(found.name), pivot=symbol(found.centre), **fields)
     if is_led(drawing, link, slide):
         p, q = (symbol(point) for point in slide.along or ())
         key = "half_line" if branch.way > 0 else "half_line_back"

@@ -113,7 +113,6 @@ class LinkPoses(Struct, frozen=True, dict=True):
     trace: Trace
 
     def si(self, quantity: Quantity) -> float:
-        """A quantity of the scene in SI."""
         return float(quantity.si(self.scene.values))
 
     @cached_property

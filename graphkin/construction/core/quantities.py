@@ -34,9 +34,7 @@ PLURALS = dict(zip(ORDERS, ("positions", "velocities", "accelerations", "jerks")
 """The derivatives of several points in words."""
 PLANES = dict(
     zip(
-        ORDERS,
-        (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS),
-        strict=True,
+        ORDERS, (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS), strict=True
     )
 )
 PLANES[FORCE] = Plane.FORCES
@@ -166,8 +164,7 @@ QUANTITIES = (
     ),
     of_point("position", "place", "", "m", "curves"),
     centre(
-        *("pole", "links", "acceleration_pole", "acceleration", "J", "acceleration pole"),
-        "poles",
+        *("pole", "links", "acceleration_pole", "acceleration", "J", "acceleration pole"), "poles"
     ),
     replace(
         centre(

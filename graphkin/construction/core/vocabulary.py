@@ -17,13 +17,7 @@ from graphkin.construction.core.palette import (
     point_and_bar,
 )
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.numbers.plane import (
-    Line,
-    Vector,
-    crossing_sine,
-    dot,
-    line_meets_line,
-)
+from graphkin.numbers.plane import Line, Vector, crossing_sine, dot, line_meets_line
 
 
 class Action(Struct, frozen=True):

@@ -169,13 +169,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
 
 def slide_image(
-    pen: Pen,
-    point: str,
-    guide: str,
-    steps: tuple[int, int, int],
-    *,
-    name: str,
-    way: int,
+    pen: Pen, point: str, guide: str, steps: tuple[int, int, int], *, name: str, way: int
 ) -> int:
     """Draw the image of a point that slides by a given rate.
 
@@ -184,13 +178,5 @@ def slide_image(
     """
     start, _, speed = steps
     image = pen.draw(driven_slide, *steps, name=name, extra=(way,))
-    pen.make(
-        DrivenSlide(
-            point=point,
-            guide=guide,
-            start=start,
-            speed=speed,
-            image=image,
-        )
-    )
+    pen.make(DrivenSlide(point=point, guide=guide, start=start, speed=speed, image=image))
     return image

@@ -195,10 +195,7 @@ def plan_scales(drawing: Drawing) -> Iterator[Relation]:
         m, again = (figure(drawing, each) for each in (scales.larger, scales.larger_still))
         by_ka = (signed("*k*_v^2/*k*_L"), f"{squared(kv)}/{number}")
         if (m, again) != ("1", "1"):
-            by_ka = (
-                signed(f"({m}·*k*_v)^2/({again}·*k*_L)"),
-                f"({m}·{kv})^2/({again}·{number})",
-            )
+            by_ka = (signed(f"({m}·*k*_v)^2/({again}·*k*_L)"), f"({m}·{kv})^2/({again}·{number})")
         yield Relation(signed("*k*_v"), "", "", kv, KV, chosen, given=True)
         yield Relation(signed("*k*_a"), *by_ka, ka, KA)
         return

@@ -18,7 +18,7 @@ from graphkin.construction.core.quantities import RATE, MotionQuantity, in_mm
 from graphkin.construction.core.relation import Relation, answer, value_of
 from graphkin.construction.core.run import Trace
 from graphkin.construction.forces.lever import LeverBalance
-from graphkin.construction.forces.line_force import LineForce
+from graphkin.construction.forces.line_force import LineForce, SlidePressure
 from graphkin.construction.forces.loads import (
     ByTable,
     InertiaMoment,
@@ -35,7 +35,6 @@ from graphkin.construction.forces.polygon import (
     InPolygon,
     side_size,
 )
-from graphkin.construction.forces.slide_pressure import SlidePressure
 from graphkin.construction.forces.tooth_force import RackForce, ToothForce
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, extent_of
@@ -114,11 +113,9 @@ class ForceDrawing(Drawing, frozen=True):
         return next(iter(self.moments.get(link, {}).values()), None)
 
     def turning_name(self, link: str) -> str:
-        """The name of the moment on a link."""
         return next(iter(self.moments[link]))
 
     def turnings(self, link: str) -> Mapping[str, float]:
-        """All moments on a link."""
         return self.moments.get(link, {})
 
     @cached_property

@@ -16,14 +16,16 @@ from msgspec.structs import replace
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
-from graphkin.construction.core.quantities import (
-    BALANCING_FORCE,
-    BALANCING_MOMENT,
-    PAIR_REACTION,
-)
+from graphkin.construction.core.quantities import BALANCING_FORCE, BALANCING_MOMENT, PAIR_REACTION
 from graphkin.construction.core.vocabulary import along_bar
 from graphkin.construction.forces.lever import LeverPlan
-from graphkin.construction.forces.line_force import along_line, foot_on_line, in_order, meeting
+from graphkin.construction.forces.line_force import (
+    along_line,
+    foot_on_line,
+    in_order,
+    meeting,
+    pressure,
+)
 from graphkin.construction.forces.loads import (
     LinkForce,
     PassedReaction,
@@ -37,9 +39,8 @@ from graphkin.construction.forces.moments import (
     Moments,
     balance_of,
     balancing_moment,
-    couple_on_guide,
     moments_about,
-    place_on_guide,
+    on_guide,
     tangential,
 )
 from graphkin.construction.forces.polygon import (
@@ -50,7 +51,6 @@ from graphkin.construction.forces.polygon import (
     normal_to_guide,
     side_between,
 )
-from graphkin.construction.forces.slide_pressure import pressure
 from graphkin.construction.forces.tooth_force import pitch_of, pitch_on, pressure_angle, rack, tooth
 from graphkin.scene.findings import natural
 from graphkin.scene.model import FRAME, Driver, Scene, Wheel
@@ -171,7 +171,6 @@ class DyadSide(NamedTuple):
 
     @property
     def links(self) -> tuple[str, ...]:
-        """Its links."""
         return tuple(dict.fromkeys((self.near, self.far)))
 
     @property
@@ -237,7 +236,6 @@ class ForcePlan:
     # --- names and reactions ---------------------------------------------------------------------
 
     def new_polygon(self, links: Sequence[str], kind: str) -> Polygon:
-        """The next polygon."""
         return Polygon(self.pen, next(self.polygons), links, kind)
 
     def partner(self, pair: Joint | CamPair, link: str) -> str:
@@ -364,8 +362,7 @@ class ForcePlan:
             self.at_pin(pair, link, force)
             return
         name, guide = self.name(pair, link), self.guide(pair)
-        place = place_on_guide(self.pen, name, f"x_{link}", link, guide, force, moments)
-        couple = couple_on_guide(self.pen, guide, force, moments)
+        place, couple = on_guide(self.pen, name, link, guide, force, moments)
         self.give(pair, link, force, place, couple=couple)
         self.turn(pair, link, couple)
 
@@ -419,8 +416,7 @@ class ForcePlan:
         one, other = near[0], far[0]
         name, guide = self.name(inner, one), self.guide(inner)
         force = pressure(pen, name, next(self.arms), (other, inner.block), guide, own, others)
-        place = place_on_guide(pen, name, f"x_{one}", one, guide, force, others)
-        couple = couple_on_guide(pen, guide, force, others)
+        place, couple = on_guide(pen, name, one, guide, force, others)
         self.pressed(inner, one, force, place, couple)
         self.turn(inner, one, couple, both=True)
         for link, pin in (far, near):
@@ -470,9 +466,7 @@ class ForcePlan:
         pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
         back, moments = self.back(pushed), self.about(pair.place, one)
-        name = self.name(inner, one)
-        place = place_on_guide(pen, name, f"x_{one}", one, guides[0], back, moments)
-        couple = couple_on_guide(pen, guides[0], back, moments)
+        place, couple = on_guide(pen, self.name(inner, one), one, guides[0], back, moments)
         self.pressed(inner, one, back, place, couple)
         self.turn(inner, one, couple, both=True)
         rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
@@ -504,23 +498,17 @@ class ForcePlan:
         """The driver's force along a cylinder and the normal one, from the polygon of the rod."""
         pen, pair, rod = self.pen, cylinder.slide, cylinder.far
         assert isinstance(inner, Pin)
-        met = Pin(inner.point, (rod, self.rod_of(inner, rod)))
+        met = Pin(inner.point, (rod, self.partner(inner, rod)))
         pin = LinkForce(
             self.name(met, rod), REACTION, between, pen.the("position", inner.place), at=inner.place
         )
         self.acting[rod].append(pin)
         push, force, moments = self.along_and_across(rod, pair, "cylinder")
-        name = self.name(pair, rod)
-        guide = self.guide(pair)
-        place = place_on_guide(pen, name, f"x_{rod}", rod, guide, force, moments)
-        couple = couple_on_guide(pen, guide, force, moments)
+        name, guide = self.name(pair, rod), self.guide(pair)
+        place, couple = on_guide(pen, name, rod, guide, force, moments)
         self.enter(pair, rod, force, place, couple)
         self.drive(cylinder.driver, rod, push, turns=False)
         return push
-
-    def rod_of(self, inner: Pin, rod: str) -> str:
-        """The other link at the inner pin of a cylinder's rod."""
-        return self.partner(inner, rod)
 
     def along_and_across(self, link: str, pair: Joint, kind: str) -> tuple[int, int, Moments]:
         """The polygon of a driven link: its driver's force along the guide, and the normal one.
@@ -540,11 +528,7 @@ class ForcePlan:
         names = "F_" + sub("b", link), self.name(pair, link)
         closed = polygon.close(names, ways, ("balance", REACTION))
         push = polygon.reaction(
-            names[0],
-            closed.corner,
-            polygon.start,
-            drawn=False,
-            quantity=BALANCING_FORCE.target,
+            names[0], closed.corner, polygon.start, drawn=False, quantity=BALANCING_FORCE.target
         )
         force = polygon.reaction(names[1], last, closed.corner, drawn=False)
         where = pen.the("position", point)

@@ -7,6 +7,7 @@ enters, so the lever gives the balance of the driver without any polygon (N. E. 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
@@ -18,7 +19,13 @@ from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.loads import LENGTH, LinkForce, newtons, on_lever, signed
-from graphkin.construction.forces.moments import SEEN, arm, of_moments, right_angle
+from graphkin.construction.forces.moments import (
+    SEEN,
+    arm,
+    of_moments,
+    pairs_and_couples,
+    right_angle,
+)
 from graphkin.construction.plan import omega_of
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
@@ -78,14 +85,10 @@ def lever_rate(omega: Real, *rest: Any) -> Real:
 
 def power_of(rest: tuple[Any, ...]) -> Real:
     """The sum of the moments of all loads on the lever."""
-    *terms, count = rest
-    pairs = int(count)
+    pairs, couples = pairs_and_couples(rest)
     total: Any = 0.0
-    for k in range(pairs):
-        foot, force = terms[2 * k : 2 * k + 2]
-        total = total + cross(foot, force)
-    for couple in terms[2 * pairs :]:
-        total = total + couple
+    for moment in chain((cross(foot, force) for foot, force in pairs), couples):
+        total = total + moment
     return total
 
 
@@ -168,14 +171,14 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
 
     name: str
     moment_name: str
-    ends: tuple[str, str]
-    turned: int | None
-    start: int | None
-    end: int | None
+    ends: tuple[str, str] = ("", "")
+    turned: int | None = None
+    start: int | None = None
+    end: int | None = None
     forces: tuple[tuple[str, str, int, int], ...]
     couples: tuple[tuple[str, str, int], ...]
     other: int
-    force: int | None
+    force: int | None = None
     moment: int | None = None
     omega: int | None = None
     link: str = ""
@@ -215,11 +218,6 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         assert self.force is not None
         return drawing.settled(abs(values[self.force]))
 
-    def by_polygon(self, drawing: Drawing) -> float:
-        """The same by the polygons of forces."""
-        value = drawing.trace.values[self.other]
-        return float(value) if self.moment is not None else abs(value)
-
     def difference(self, drawing: Drawing) -> float:
         """The difference of both routes, as a share of the larger one."""
         values = drawing.trace.values
@@ -243,7 +241,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             "p": letter,
             "f": symbol(self.name),
             "below": self.below(drawing),
-            "sum": self.sum(drawing),
+            "sum": self.sums(drawing)[0],
             "force": newtons(drawing, drawing.settled(force)),
             "m": symbol(self.moment_name),
             "bar": bar(*self.ends),
@@ -265,7 +263,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             return words("step.force-lever-none", **fields)
         return words(
             "step.force-lever-rate",
-            sum=self.sum(drawing),
+            sum=self.sums(drawing)[0],
             below=symbol(f"ω_{self.link}"),
             size=f"{answer(drawing, abs(size))} N·m",
             sense=sense(words, size),
@@ -282,34 +280,21 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         arm = drawing.in_signs("*o*") + drawing.lettered(self.turned)
         return f"({arm}·{drawing.in_signs('*k*_v')})" if self.in_metres(drawing) else arm
 
-    def sum(self, drawing: Drawing) -> str:
-        """The sum of moments in symbols, positive as a whole."""
+    def sums(self, drawing: Drawing) -> tuple[str, str]:
+        """The sum of moments in symbols and in figures, positive as a whole."""
         some = list(self.terms(drawing))
         turned = sum(each[2] for each in some) < 0
-        scale = drawing.in_signs("·*k*_v") if self.in_metres(drawing) else ""
-        return signed(
-            (
-                (moment > 0) is not turned,
-                f"{symbol(name)}·{symbol(number)}{scale if force else ''}",
-            )
-            for name, number, moment, force, _ in some
-        )
-
-    def figures(self, drawing: Drawing) -> str:
-        """The same in figures."""
-        some = list(self.terms(drawing))
-        turned = sum(each[2] for each in some) < 0
-        metres = self.in_metres(drawing)
-        scale = f"·{figure(drawing, drawing.scales.k_lever / 1000)}" if metres else ""
-        return signed(
-            (
-                (moment > 0) is not turned,
-                f"{figure(drawing, force)}·{figure(drawing, arm)}{scale}"
-                if force
-                else figure(drawing, abs(moment)),
-            )
-            for _, _, moment, force, arm in some
-        )
+        symbols, figures = [], []
+        for name, number, moment, force, length in some:
+            said, put = f"{symbol(name)}·{symbol(number)}", figure(drawing, abs(moment))
+            if force:
+                put = f"{figure(drawing, force)}·{figure(drawing, length)}"
+                if self.in_metres(drawing):
+                    said += drawing.in_signs("·*k*_v")
+                    put += f"·{figure(drawing, drawing.scales.k_lever / 1000)}"
+            symbols.append(((moment > 0) is not turned, said))
+            figures.append(((moment > 0) is not turned, put))
+        return signed(symbols), signed(figures)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The force, then the moment of the crank."""
@@ -320,7 +305,8 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         if self.turned is None or self.force is None:
             assert self.omega is not None
             omega, rate = symbol(f"ω_{self.link}"), figure(drawing, abs(values[self.omega]))
-            put = f"({self.sum(drawing)})/{omega} = ({self.figures(drawing)})/{rate}"
+            symbols, figures = self.sums(drawing)
+            put = f"({symbols})/{omega} = ({figures})/{rate}"
             result, said = answer(drawing, abs(size)), sense(drawing.words, size)
             left, about = symbol(self.moment_name), drawing.in_signs(f"Σ*M*(*o*)/{omega}")
             yield Relation(left, about, put, result, "N·m", said, turns=True)
@@ -335,7 +321,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
         yield of_moments(
             (symbol(self.name), answer(drawing, force), "N"),
             drawing.in_signs("*o*"),
-            (self.sum(drawing), self.figures(drawing)),
+            self.sums(drawing),
             (self.below(drawing), put),
             by=arm,
         )
@@ -425,22 +411,16 @@ class LeverPlan:
     ) -> None:
         """The moment of a crank with no point but its pivot, from the loads' power and its rate."""
         pen, omega = self.pen, omega_of(self.pen, link)
-        pairs = [n for _, _, foot, force in forces for n in (foot, force)]
+        loads, extra = inputs_of(forces, couples)
         with pen.on(Part.FORCE, Plane.NUMBERS):
-            inputs = omega, *pairs, *(step for _, _, step in couples)
-            moment = pen.draw(lever_rate, *inputs, extra=(float(len(forces)),))
+            moment = pen.draw(lever_rate, omega, *loads, extra=extra)
         pen.make(
             LeverBalance(
                 name=name,
                 moment_name=name,
-                ends=("", ""),
-                turned=None,
-                start=None,
-                end=None,
                 forces=tuple(forces),
                 couples=tuple(couples),
                 other=other,
-                force=None,
                 moment=moment,
                 omega=omega,
                 link=link,
@@ -461,15 +441,9 @@ class LeverPlan:
         pen = self.pen
         start, end = (pen.the("position", e) for e in ends) if turns else (None, None)
         turned = self.image(ends[1])
-        pairs = [n for _, _, foot, force in forces for n in (foot, force)]
+        loads, extra = inputs_of(forces, couples)
         with pen.on(Part.FORCE, Plane.LEVER):
-            force = pen.draw(
-                lever_balance,
-                turned,
-                *pairs,
-                *(step for _, _, step in couples),
-                extra=(float(len(forces)),),
-            )
+            force = pen.draw(lever_balance, turned, *loads, extra=extra)
         moment = None
         if start is not None and end is not None:
             with pen.on(Part.FORCE, Plane.NUMBERS):
@@ -489,3 +463,11 @@ class LeverPlan:
                 moment=moment,
             )
         )
+
+
+def inputs_of(
+    forces: Sequence[tuple[str, str, int, int]], couples: Sequence[tuple[str, str, int]]
+) -> tuple[list[int], tuple[float]]:
+    """The inputs of a sum of moments on the lever: feet and forces, then couples; their count."""
+    steps = [n for _, _, foot, force in forces for n in (foot, force)]
+    return [*steps, *(step for _, _, step in couples)], (float(len(forces)),)

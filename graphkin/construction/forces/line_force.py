@@ -2,33 +2,34 @@
 
 The force of a cam acts along the common normal. The force in an outer pin of a group of class III
 acts along its bar, once the part across the bar is known; moments are taken about the point in
-which the lines of two other bars meet (Assur's point).
+which the lines of two other bars meet (Assur's point). The force between two links that slide
+along each other is normal to their guide.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
-from graphkin.construction.forces.loads import force_amount, newtons
 from graphkin.construction.forces.moments import (
     SEEN,
+    ForceByMoments,
     Moments,
     arm,
     line_arm,
     moment_sum,
-    of_moments,
 )
 from graphkin.construction.forces.polygon import SideDirection, links_words
-from graphkin.drawing.symbol_markup import symbol
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line, cross, crossing_sine
 
@@ -49,7 +50,7 @@ def line_force(about: Point, foot: Point, line: Line, *rest: Any) -> Point:
     return -moment_sum(about, rest) / cross(foot - about, unit) * unit
 
 
-class LineForce(Construction, frozen=True, kw_only=True):
+class LineForce(ForceByMoments, frozen=True, kw_only=True):
     """The force ``name`` on some ``links`` along a line, with its arm and the arm's symbol.
 
     ``way`` is the line in words; ``through`` is a point on it at which the force acts. ``cam`` says
@@ -58,16 +59,14 @@ class LineForce(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_line"}
+    none: ClassVar[str] = "step.force-line-none"
 
-    name: str
     number: str
     links: tuple[str, ...]
     way: SideDirection
     cam: bool
-    moments: Moments
     through: int
     foot: int
-    force: int
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the line as far as the foot, and the arm with its dimension."""
@@ -78,53 +77,18 @@ class LineForce(Construction, frozen=True, kw_only=True):
             return
         line_arm(canvas, (self.name, self.number), about, through, end)
 
-    def symbols(self) -> Mapping[str, str]:
-        """The point about which the moments are taken."""
-        return {"b": symbol(self.moments.letter)}
+    def sentence_key(self, drawing: Drawing) -> str:
+        return "step.force-normal" if self.cam else "step.force-line"
 
-    def size(self, drawing: Drawing) -> float:
-        """The magnitude of the force in N; zero for rounding."""
-        return drawing.settled(abs(drawing.trace.values[self.force]))
+    def fields(self, drawing: Drawing) -> Mapping[str, str]:
+        """The links, the line and the arm."""
+        links, way = links_words(drawing, self.links), self.way.words(drawing)
+        return {**super().fields(drawing), "k": links, "way": way, "h": symbol(self.number)}
 
-    def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """The moment equation, and the size of the force."""
-        if role != "force":
-            return ""
-        size = self.size(drawing)
-        key = "step.force-normal" if self.cam else "step.force-line"
-        return drawing.words(
-            key if size else "step.force-line-none",
-            k=links_words(drawing, self.links),
-            b=symbol(self.moments.letter),
-            r=symbol(self.name),
-            way=self.way.words(drawing),
-            h=symbol(self.number),
-            below=self.below(drawing),
-            sum=self.moments.positive(drawing),
-            size=newtons(drawing, size),
-            drawn=force_amount(drawing, size),
-        )
-
-    def below(self, drawing: Drawing) -> str:
-        """The arm in symbols; in metres where there are couples."""
-        below: str = symbol(self.number)
-        return f"({below}·*k*_L)" if self.moments.in_metres(drawing) else below
-
-    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The sum of moments divided by the arm."""
-        size, values = self.size(drawing), drawing.trace.values
-        if role != "force" or not size:
-            return
-        put = figure(drawing, drawing.on_paper(abs(values[self.foot] - values[self.moments.about])))
-        if self.moments.in_metres(drawing):
-            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
-        yield of_moments(
-            (symbol(self.name), answer(drawing, size), "N"),
-            symbol(self.moments.letter),
-            (self.moments.positive(drawing), self.moments.positive(drawing, figures=True)),
-            (self.below(drawing), put),
-            by=symbol(self.number),
-        )
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The distance of the line."""
+        foot, about = (drawing.trace.values[n] for n in (self.foot, self.moments.about))
+        return [(symbol(self.number), figure(drawing, drawing.on_paper(abs(foot - about))))]
 
 
 class AssurPoint(Construction, frozen=True, kw_only=True):
@@ -191,6 +155,111 @@ def along_line(
         moments=moments,
         through=through,
         foot=end,
+        force=force,
+    )
+    return pen.make(found).force
+
+
+# --- the force of a guide, normal to it -----------------------------------------------------------
+
+
+@action("pressure-arm")
+def pressure_arm(about: Point, place: Point, guide: Line) -> Point:
+    """The foot of the perpendicular from a pin to the normal of a guide at a place."""
+    return arm.value(about, place, 1j * guide.along)
+
+
+@action("slide-pressure")
+def slide_pressure(far: Point, foot: Point, guide: Line, near: Point, *rest: Any) -> Point:
+    """The force of a guide that balances the moments of both its links.
+
+    ``foot`` is the foot of ``far`` on the normal through ``near``. The inputs of the moments of the
+    link at far come first, then those of the link at near. The numbers of pairs of both follow, and
+    last the number of inputs of the first.
+    """
+    *terms, pairs, others, first = rest
+    normal = 1j * guide.along / abs(guide.along)
+    total = moment_sum(far, (*terms[: int(first)], pairs))
+    total = total + moment_sum(near, (*terms[int(first) :], others))
+    return total / cross(foot - far, normal) * normal
+
+
+class SlidePressure(ForceByMoments, frozen=True, kw_only=True):
+    """The force ``name`` on the link at ``near`` from the ``link`` at ``far``, normal to a guide.
+
+    ``moments`` are those of the link at far about its pin, ``others`` those of the link at near.
+    """
+
+    gives: ClassVar[tuple[str, ...]] = ("foot", "force")
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_pressure"}
+    none: ClassVar[str] = "step.force-pressure-none"
+
+    number: str
+    link: str
+    block: str
+    others: Moments
+    foot: int
+
+    def marks(self, canvas: Canvas, role: str) -> None:
+        """Draw the arm of the force about the far pin."""
+        if role != "foot":
+            return
+        far, near, foot = map(canvas.value, (self.moments.about, self.others.about, self.foot))
+        if canvas.size(foot - far) <= SEEN:
+            return
+        line_arm(canvas, (self.name, self.number), far, near, foot)
+
+    def sentence_key(self, drawing: Drawing) -> str:
+        both = self.others.shown(drawing)
+        return "step.force-pressure-both" if both else "step.force-pressure"
+
+    def fields(self, drawing: Drawing) -> Mapping[str, str]:
+        """The link, both pins, the arm and the guide."""
+        return {
+            **super().fields(drawing),
+            "k": escape(self.link),
+            "far": symbol(self.moments.letter),
+            "near": symbol(self.others.letter),
+            "h": symbol(self.number),
+            "guide": way_of(drawing, self.block),
+        }
+
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The distance of the normal from the far pin."""
+        foot, far = (drawing.trace.values[n] for n in (self.foot, self.moments.about))
+        return [(symbol(self.number), figure(drawing, drawing.on_paper(abs(foot - far))))]
+
+
+def pressure(
+    pen: Pen,
+    name: str,
+    number: str,
+    names: tuple[str, str],
+    guide: int,
+    own: Moments,
+    others: Moments,
+) -> int:
+    """The force of a guide on the near link; ``names`` are the far link and the block."""
+    link, block = names
+    with pen.on(Part.FORCE, Plane.MECHANISM):
+        foot = pen.draw(pressure_arm, own.about, others.about, guide)
+    first, second = own.steps, others.steps
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        force = pen.draw(
+            slide_pressure,
+            *(own.about, foot, guide, others.about),
+            *first,
+            *second,
+            extra=(*own.extra, *others.extra, float(len(first))),
+        )
+    found = SlidePressure(
+        name=name,
+        number=number,
+        link=link,
+        block=block,
+        moments=own,
+        others=others,
+        foot=foot,
         force=force,
     )
     return pen.make(found).force

@@ -249,9 +249,7 @@ class PassedReaction(Construction, frozen=True, kw_only=True):
     """The opposite of a reaction, which acts on the other link of the pair."""
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
-    slips: ClassVar[Mapping[str, Slip]] = {
-        "reaction_reversed": Slip(-1, "moderate", ("force",)),
-    }
+    slips: ClassVar[Mapping[str, Slip]] = {"reaction_reversed": Slip(-1, "moderate", ("force",))}
 
     name: str
     force: int
@@ -785,11 +783,7 @@ def applied(pen: Pen, acting: LinkForce) -> LinkForce:
         where = pen.draw(acts_at, acting.place, acting.force)
     pen.make(
         AppliedForce(
-            name=acting.name,
-            look=acting.look,
-            place=acting.place,
-            force=acting.force,
-            where=where,
+            name=acting.name, look=acting.look, place=acting.place, force=acting.force, where=where
         )
     )
     return acting

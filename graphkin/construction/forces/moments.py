@@ -8,7 +8,9 @@ The balance of a driven crank: the moment that keeps its motion, from moments ab
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any, ClassVar, NamedTuple
 
 from msgspec import Struct
@@ -44,15 +46,18 @@ def arm(about: Point, place: Point, force: Point) -> Point:
 
 def moment_sum(about: Point, rest: Sequence[Any]) -> Real:
     """The moments about a point: pairs of a foot and a force, then couples, then their number."""
-    *terms, count = rest
-    pairs = int(count)
+    pairs, couples = pairs_and_couples(rest)
     total: Any = 0.0
-    for k in range(pairs):
-        foot, force = terms[2 * k : 2 * k + 2]
-        total = total + cross(foot - about, force)
-    for couple in terms[2 * pairs :]:
-        total = total + couple
+    for moment in chain((cross(foot - about, force) for foot, force in pairs), couples):
+        total = total + moment
     return total
+
+
+def pairs_and_couples(rest: Sequence[Any]) -> tuple[list[tuple[Any, Any]], list[Any]]:
+    """Pairs of a foot and a force, and couples; the number of pairs comes last."""
+    *terms, count = rest
+    end = 2 * int(count)
+    return [*zip(terms[:end:2], terms[1:end:2], strict=True)], terms[end:]
 
 
 @action("tangential-part")
@@ -80,9 +85,8 @@ def place_by_moments(about: Point, guide: Line, reaction: Point, *rest: Any) -> 
 
 def sizes(rest: Sequence[Any]) -> Real:
     """The magnitudes of the forces in a sum of moments together."""
-    *terms, count = rest
     total: Any = 0.0
-    for force in terms[1 : 2 * int(count) : 2]:
+    for _, force in pairs_and_couples(rest)[0]:
         total = total + abs(force)
     return total
 
@@ -142,7 +146,7 @@ class ForceArm(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot",)
     slips: ClassVar[Mapping[str, Slip]] = {
-        "arm_slanted": Slip(1, "moderate", ("foot",), taken=slanted),
+        "arm_slanted": Slip(1, "moderate", ("foot",), taken=slanted)
     }
 
     name: str
@@ -238,17 +242,115 @@ class Moments(Struct, frozen=True):
 
         return signed(((e[1] > 0) is not turned, of(*e)) for e in some)
 
-    def positive(self, drawing: Drawing, *, figures: bool = False) -> str:
-        """The sum in symbols or in figures, with the signs that make it positive as a whole."""
-        turned = sum(moment for _, moment, _, _ in self.values(drawing)) < 0
-        return (self.figures if figures else self.symbols)(drawing, turned=turned)
+    def total(self, drawing: Drawing) -> float:
+        """The sum in N·m."""
+        return sum(moment for _, moment, _, _ in self.values(drawing))
 
     def in_metres(self, drawing: Drawing) -> bool:
         """Whether a couple among the terms needs arms in metres."""
         return any(term.foot is None for term, *_ in self.shown(drawing))
 
 
-class TangentialPart(Construction, frozen=True, kw_only=True):
+def divisor(drawing: Drawing, *factors: tuple[str, str], metres: bool) -> tuple[str, str]:
+    """A product of factors in symbols and in figures; in metres with the scale of lengths."""
+    if metres:
+        factors = (*factors, ("*k*_L", figure(drawing, drawing.scales.kL / 1000)))
+    symbols, figures = ("·".join(each) for each in zip(*factors, strict=True))
+    return (symbols, figures) if len(factors) == 1 else (f"({symbols})", f"({figures})")
+
+
+def sums_of(drawing: Drawing, *every: Moments) -> tuple[str, str]:
+    """The sums of one or two links as one, in symbols and in figures, positive as a whole."""
+    shown = [each for each in every if each.shown(drawing)]
+    turned = sum(each.total(drawing) for each in shown) < 0
+    symbols = in_turn(each.symbols(drawing, turned=turned) for each in shown)
+    return symbols, in_turn(each.figures(drawing, turned=turned) for each in shown)
+
+
+def in_turn(sums: Iterable[str]) -> str:
+    """Sums one after the other as one sum."""
+    said = ""
+    for more in sums:
+        said += (f" − {more[1:]}" if more.startswith("−") else f" + {more}") if said else more
+    return said or "0"
+
+
+class ForceByMoments(Construction, frozen=True, kw_only=True):
+    """The ``force`` called ``name``: the sum of moments about a point, divided by its arm.
+
+    ``others`` are the moments of a second link, whose sum it balances too. ``none`` is the key of
+    the sentence where there is no force.
+    """
+
+    none: ClassVar[str]
+
+    name: str
+    moments: Moments
+    others: Moments | None = None
+    force: int
+
+    @property
+    def every(self) -> list[Moments]:
+        """The moments of its one or two links."""
+        return [each for each in (self.moments, self.others) if each is not None]
+
+    @abstractmethod
+    def sentence_key(self, drawing: Drawing) -> str:
+        """The key of the sentence where there is a force."""
+
+    @abstractmethod
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The arm of the force on paper as a product: each factor in symbols and in figures."""
+
+    def below(self, drawing: Drawing) -> tuple[str, str]:
+        """The arm that divides the sum, in symbols and in figures."""
+        metres = any(each.in_metres(drawing) for each in self.every)
+        return divisor(drawing, *self.arm(drawing), metres=metres)
+
+    def over(self, drawing: Drawing) -> str:
+        """The arm in symbols as a form has it."""
+        return self.arm(drawing)[0][0]
+
+    def size(self, drawing: Drawing) -> float:
+        """The magnitude of the force in N; zero for rounding."""
+        return drawing.settled(abs(drawing.trace.values[self.force]))
+
+    def symbols(self) -> Mapping[str, str]:
+        """The point about which the moments are taken."""
+        return {"b": symbol(self.moments.letter)}
+
+    def fields(self, drawing: Drawing) -> Mapping[str, str]:
+        """The symbols and numbers that its sentence uses."""
+        size = self.size(drawing)
+        return {
+            **self.symbols(),
+            "r": symbol(self.name),
+            "below": self.below(drawing)[0],
+            "sum": sums_of(drawing, *self.every)[0],
+            "size": newtons(drawing, size),
+            "drawn": force_amount(drawing, size),
+        }
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The moment equation, and the size of the force."""
+        if role != "force":
+            return ""
+        key = self.sentence_key(drawing) if self.size(drawing) else self.none
+        return drawing.words(key, **self.fields(drawing))
+
+    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
+        """The sum of moments divided by the arm."""
+        if role == "force" and (size := self.size(drawing)):
+            yield of_moments(
+                (symbol(self.name), answer(drawing, size), "N"),
+                symbol(self.moments.letter),
+                sums_of(drawing, *self.every),
+                self.below(drawing),
+                by=self.over(drawing),
+            )
+
+
+class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
     """The part ``name`` of the reaction at a ``link``'s outer pin, across the bar to the inner."""
 
     gives: ClassVar[tuple[str, ...]] = ("force",)
@@ -257,70 +359,30 @@ class TangentialPart(Construction, frozen=True, kw_only=True):
         "tangential_reversed": Slip(-1, "moderate", ("force",)),
         "arms_about_outer": Slip(1, "moderate", ("force",), taken=about_outer),
     }
+    none: ClassVar[str] = "step.force-tangential-none"
 
-    name: str
     link: str
     ends: tuple[str, str]
     outer: int
     inner: int
-    moments: Moments
-    force: int
 
-    def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """The moment equation, and the size of the part."""
-        size = drawing.settled(abs(drawing.trace.values[self.force]))
-        outer, inner = self.ends
-        fields = {
-            "k": escape(self.link),
-            "b": symbol(inner),
-            "bar": bar(outer, inner),
-            "below": self.below(drawing),
-            "r": symbol(self.name),
-            "size": newtons(drawing, size),
-            "drawn": force_amount(drawing, size),
-            "sum": self.sum(drawing),
-            "sense": sense(drawing.words, 1 if self.is_turned(drawing) else -1),
-        }
-        return drawing.words(
-            "step.force-tangential" if size else "step.force-tangential-none", **fields
-        )
+    def sentence_key(self, drawing: Drawing) -> str:
+        return "step.force-tangential"
 
     def symbols(self) -> Mapping[str, str]:
         """The inner pin, and the bar."""
         return {"b": symbol(self.ends[1]), "bar": bar(*self.ends)}
 
-    def is_turned(self, drawing: Drawing) -> bool:
-        """Whether the sum of moments is negative, so that its signs are reversed."""
-        return sum(moment for _, moment, _, _ in self.moments.values(drawing)) < 0
+    def fields(self, drawing: Drawing) -> Mapping[str, str]:
+        """The link, and the sense of the loads."""
+        turned = self.moments.total(drawing) < 0
+        own = {"k": escape(self.link), "sense": sense(drawing.words, 1 if turned else -1)}
+        return {**super().fields(drawing), **own}
 
-    def sum(self, drawing: Drawing) -> str:
-        """The sum of moments in symbols, positive as a whole."""
-        return self.moments.symbols(drawing, turned=self.is_turned(drawing))
-
-    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The sum of moments divided by the bar."""
-        values = drawing.trace.values
-        size = drawing.settled(abs(values[self.force]))
-        outer, inner = self.ends
-        if not size:
-            return
-        turned, length = self.is_turned(drawing), abs(values[self.outer] - values[self.inner])
-        below, put = bar(outer, inner), figure(drawing, drawing.on_paper(length))
-        if self.moments.in_metres(drawing):
-            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
-        sums = self.sum(drawing), self.moments.figures(drawing, turned=turned)
-        yield of_moments(
-            (symbol(self.name), answer(drawing, size), "N"),
-            symbol(inner),
-            sums,
-            (self.below(drawing), put),
-            by=below,
-        )
-
-    def below(self, drawing: Drawing) -> str:
-        """The bar as drawn, or in metres beside couples."""
-        below = bar(*self.ends)
-        return f"({below}·*k*_L)" if self.moments.in_metres(drawing) else below
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The bar."""
+        outer, inner = (drawing.trace.values[end] for end in (self.outer, self.inner))
+        return [(bar(*self.ends), figure(drawing, drawing.on_paper(abs(outer - inner))))]
 
 
 class PlaceOnGuide(Construction, frozen=True, kw_only=True):
@@ -361,34 +423,25 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
             "r": symbol(self.name),
             "x": symbol(self.number),
             "mm": in_mm(drawing.words, drawing.on_paper(self.shift(drawing))),
-            "sum": self.sum(drawing),
+            "sum": sums_of(drawing, self.moments)[0],
         }
         key = (
             "step.force-place" if size and self.moments.shown(drawing) else "step.force-place-none"
         )
         return drawing.words(key, **fields)
 
-    def sum(self, drawing: Drawing) -> str:
-        """The sum of moments in symbols, positive as a whole."""
-        return self.moments.positive(drawing)
-
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The sum of moments divided by the reaction."""
         size = drawing.settled(abs(drawing.trace.values[self.reaction]))
         if not size or not self.moments.shown(drawing):
             return
-        below: str = symbol(self.name)
-        put = figure(drawing, size)
-        if self.moments.in_metres(drawing):
-            below = f"({below}·*k*_L)"
-            put = f"({put}·{figure(drawing, drawing.scales.kL / 1000)})"
-        sums = self.sum(drawing), self.moments.positive(drawing, figures=True)
+        force = symbol(self.name), figure(drawing, size)
         shift = drawing.words.fixed(drawing.on_paper(self.shift(drawing)), 2)
         yield of_moments(
             (symbol(self.number), shift, "mm"),
             symbol(self.moments.letter),
-            sums,
-            (below, put),
+            sums_of(drawing, self.moments),
+            divisor(drawing, force, metres=self.moments.in_metres(drawing)),
             by=symbol(self.name),
         )
 
@@ -454,30 +507,24 @@ def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: M
     return pen.make(part).force
 
 
-def couple_on_guide(pen: Pen, guide: int, reaction: int, moments: Moments) -> int | None:
-    """The couple that a guide carries where it has no reaction; None where no moment is left."""
-    if not moments.terms:
-        return None
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        return pen.draw(
-            left_couple, moments.about, guide, reaction, *moments.steps, extra=moments.extra
-        )
+def on_guide(
+    pen: Pen, name: str, link: str, guide: int, reaction: int, moments: Moments
+) -> tuple[int, int | None]:
+    """The place of a guide's reaction on a link, and the couple that replaces it where it is zero.
 
-
-def place_on_guide(
-    pen: Pen, name: str, number: str, link: str, guide: int, reaction: int, moments: Moments
-) -> int:
-    """The place of a guide's reaction: at the pin itself, where no force has a moment about it."""
+    It is at the pin itself, without a couple, where no force has a moment about that pin.
+    """
     if not moments.terms:
-        return moments.about
+        return moments.about, None
+    inputs = moments.about, guide, reaction, *moments.steps
     with pen.on(Part.FORCE, Plane.MECHANISM):
-        place = pen.draw(
-            place_by_moments, moments.about, guide, reaction, *moments.steps, extra=moments.extra
-        )
+        place = pen.draw(place_by_moments, *inputs, extra=moments.extra)
     found = PlaceOnGuide(
-        name=name, number=number, link=link, moments=moments, reaction=reaction, place=place
+        name=name, number=f"x_{link}", link=link, moments=moments, reaction=reaction, place=place
     )
-    return pen.make(found).place
+    pen.make(found)
+    with pen.on(Part.FORCE, Plane.NUMBERS):
+        return place, pen.draw(left_couple, *inputs, extra=moments.extra)
 
 
 class BalancingMoment(Construction, frozen=True, kw_only=True):

@@ -144,7 +144,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
             ("one", "other"),
             normal_to_guide,
             lambda kind, line, get: Line(line.point, 1j * line.along),
-        ),
+        )
     }
 
     kind: str
@@ -231,7 +231,6 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     first: str = ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the reaction."""
         if role == "arrow":
             draw_force(canvas, self.name, REACTION, canvas.value(self.tail), canvas.value(self.tip))
 

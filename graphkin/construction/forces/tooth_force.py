@@ -7,18 +7,16 @@ wheels apart. Plain wheels carry a force along the tangent alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure
+from graphkin.construction.core.relation import Relation, figure
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.loads import force_amount, newtons
-from graphkin.construction.forces.moments import Moments, arm, moment_sum, of_moments
+from graphkin.construction.forces.moments import ForceByMoments, Moments, arm, moment_sum
 from graphkin.construction.forces.polygon import (
     REACTION,
     InPolygon,
@@ -132,7 +130,7 @@ class RackForce(InPolygon, frozen=True, kw_only=True):
             yield of_side(drawing, self.name, self.start, self.corner)
 
 
-class ToothForce(Construction, frozen=True, kw_only=True):
+class ToothForce(ForceByMoments, frozen=True, kw_only=True):
     """The force ``name`` on a ``link`` from the wheel of another, at their ``pitch`` point.
 
     ``moments`` are those of the link's loads about its centre, or about its other contact if
@@ -141,13 +139,11 @@ class ToothForce(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("pitch", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tooth"}
+    none: ClassVar[str] = "step.force-tooth-none"
 
-    name: str
     link: str
     angle: int
-    moments: Moments
     pitch: int
-    force: int
     across: tuple[str, str] = ("", "")
 
     def marks(self, canvas: Canvas, role: str) -> None:
@@ -156,60 +152,27 @@ class ToothForce(Construction, frozen=True, kw_only=True):
             centre, pitch = canvas.value(self.moments.about), canvas.value(self.pitch)
             canvas.leg(self.name, "ray", centre, pitch)
 
-    def symbols(self) -> Mapping[str, str]:
-        """The centre of the wheel."""
-        return {"b": symbol(self.moments.letter)}
+    def sentence_key(self, drawing: Drawing) -> str:
+        return "step.force-tooth" if self.angle else "step.force-rim"
 
-    def fields(self, drawing: Drawing) -> dict[str, str]:
-        """The symbols and numbers that its sentence uses."""
-        size = drawing.settled(abs(drawing.trace.values[self.force]))
-        return {
-            "k": escape(self.link),
-            "b": symbol(self.moments.letter),
-            "r": symbol(self.name),
-            "angle": f"{self.angle}°",
-            "below": self.below(drawing),
-            "sum": self.moments.positive(drawing),
-            "size": newtons(drawing, size),
-            "drawn": force_amount(drawing, size),
-        }
+    def fields(self, drawing: Drawing) -> Mapping[str, str]:
+        """The link, and the angle of the line of action."""
+        own = {"k": escape(self.link), "angle": f"{self.angle}°"}
+        return {**super().fields(drawing), **own}
 
-    def sentence_alone(self, drawing: Drawing, role: str) -> str:
-        """The moment equation, and the size of the force on its line of action."""
-        if role != "force":
-            return ""
-        key = "step.force-tooth" if self.angle else "step.force-rim"
-        if not drawing.settled(abs(drawing.trace.values[self.force])):
-            key = "step.force-tooth-none"
-        return drawing.words(key, **self.fields(drawing))
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The base radius."""
+        pitch, about = (drawing.trace.values[n] for n in (self.pitch, self.moments.about))
+        radius = bar(*self.across) if self.across[0] else f"*r*_{{{escape(self.link)}}}"
+        factors = [(radius, figure(drawing, drawing.on_paper(abs(pitch - about))))]
+        if self.angle:
+            cosine = math.cos(math.radians(self.angle))
+            factors.append((f"cos {self.angle}°", figure(drawing, cosine)))
+        return factors
 
-    def below(self, drawing: Drawing) -> str:
-        """The arm of the force in symbols: the base radius, in metres beside couples."""
-        radius = f"*r*_{{{escape(self.link)}}}"
-        if self.across[0]:
-            radius = bar(*self.across)
-        parts = [radius, *([f"cos {self.angle}°"] if self.angle else [])]
-        parts += ["*k*_L"] if self.moments.in_metres(drawing) else []
-        return f"({'·'.join(parts)})" if len(parts) > 1 else radius
-
-    def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
-        """The sum of moments divided by the arm of the line of action."""
-        values = drawing.trace.values
-        size = drawing.settled(abs(values[self.force]))
-        if role != "force" or not size:
-            return
-        drawn = drawing.on_paper(abs(values[self.pitch] - values[self.moments.about]))
-        put = [figure(drawing, drawn)]
-        put += [figure(drawing, math.cos(math.radians(self.angle)))] if self.angle else []
-        if self.moments.in_metres(drawing):
-            put.append(figure(drawing, drawing.scales.kL / 1000))
-        yield of_moments(
-            (symbol(self.name), answer(drawing, size), "N"),
-            symbol(self.moments.letter),
-            (self.moments.positive(drawing), self.moments.positive(drawing, figures=True)),
-            (self.below(drawing), f"({'·'.join(put)})" if len(put) > 1 else put[0]),
-            by=self.below(drawing),
-        )
+    def over(self, drawing: Drawing) -> str:
+        """All factors of the arm."""
+        return self.below(drawing)[0]
 
 
 def pressure_angle(*wheels: Wheel | None) -> int:
@@ -254,13 +217,7 @@ def tooth(
             tooth_force, moments.about, pitch, *moments.steps, extra=(*moments.extra, slant)
         )
     found = ToothForce(
-        name=name,
-        link=link,
-        angle=angle,
-        moments=moments,
-        pitch=pitch,
-        force=force,
-        across=across,
+        name=name, link=link, angle=angle, moments=moments, pitch=pitch, force=force, across=across
     )
     return pen.make(found)
 

@@ -160,8 +160,7 @@ def apart(one: Segment, other: Segment) -> float:
     if max(sides) < 0:
         return -AIR
     return min(
-        *(away_from(place, one) for place in other),
-        *(away_from(place, other) for place in one),
+        *(away_from(place, one) for place in other), *(away_from(place, other) for place in one)
     )
 
 

@@ -202,13 +202,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     """
 
     gives: ClassVar[tuple[str, ...]] = ("small", "large", "foot", "tangent", "turn", "line")
-    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
-        (
-            "tangent",
-            "turn",
-        ),
-        ByHand.TURNED,
-    )
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("tangent", "turn"), ByHand.TURNED)
     corners: ClassVar[frozenset[str]] = frozenset({"foot"})
     lines: ClassVar[Mapping[str, str]] = {
         **SwungGuide.lines,
@@ -254,9 +248,7 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     def failing(self) -> Message:
         """The words for a pin within the circle that the guide touches."""
         return message(
-            "{pin} is nearer to {pivot} than the guide passes it",
-            pin=self.pin,
-            pivot=self.pivot,
+            "{pin} is nearer to {pivot} than the guide passes it", pin=self.pin, pivot=self.pivot
         )
 
 

@@ -176,11 +176,7 @@ class Trying(Trial, frozen=True, dict=True):
         return self.ordered(known, size, *(np.concatenate(column) for column in found))
 
     def fits(
-        self,
-        known: Sequence[Any],
-        scales: Any,
-        signs: tuple[int, ...],
-        windows: Windows,
+        self, known: Sequence[Any], scales: Any, signs: tuple[int, ...], windows: Windows
     ) -> Iterator[tuple[Any, Any, Any, Any]]:
         """Every fit for sets of signs that begin with ``signs``.
 

@@ -29,7 +29,7 @@ from graphkin.construction.core.relation import FINE, Relation, answer, figure, 
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.group_images import GroupImages
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.velocity.lines_through import parallel_through
+from graphkin.construction.velocity.relative_motion import parallel_through
 from graphkin.drawing.style import CHAIN_LINES, OWN_LINES
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, larger, smaller

@@ -211,13 +211,7 @@ def trial_of(pen: Pen, group: Higher, each: Each) -> tuple[Trying, list[int]]:
 
         kind = SeveralTrials
     trying = kind(
-        fork.program(),
-        pen.scene.values,
-        tuple(fork.inputs),
-        unknowns,
-        tuple(signs),
-        axes,
-        traced,
+        fork.program(), pen.scene.values, tuple(fork.inputs), unknowns, tuple(signs), axes, traced
     )
     return trying, list(fork.inputs.values())
 

@@ -98,12 +98,7 @@ def arcs_reach(m: Circle, n: Circle, *_: Any) -> tuple[Any, Any]:
     return most**2 - distance**2, distance**2 - least**2
 
 
-@action(
-    "arcs-meet",
-    margin=lambda m, n, side: circles_sine(m, n),
-    reaches=arcs_reach,
-    move=CUTS,
-)
+@action("arcs-meet", margin=lambda m, n, side: circles_sine(m, n), reaches=arcs_reach, move=CUTS)
 def arcs_meet(m: Circle, n: Circle, side: int) -> Point:
     """The point where two arcs meet, on one side of the line from one centre to the other."""
     return circle_meets_circle(m, n, side)

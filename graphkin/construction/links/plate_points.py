@@ -164,10 +164,7 @@ class PlatePoint(Construction, frozen=True, kw_only=True):
         if self.corner in drawing.trace.values:
             return self.by_hand(drawing)
         name, third = symbol(self.name), symbol(self.name)
-        base, figure = (
-            symbol(self.start) + symbol(self.end),
-            bar(self.start, self.end),
-        )
+        base, figure = (symbol(self.start) + symbol(self.end), bar(self.start, self.end))
         figures = {"image": base + third, "figure": figure + third}
         return drawing.words("step.similar-point", name=name, **figures)
 

@@ -66,7 +66,6 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
         return [*found, *self.own(drawing)]
 
     def own(self, drawing: Drawing) -> Iterator[Relation]:
-        """Its own relation."""
         raise NotImplementedError
 
 
@@ -94,10 +93,7 @@ class TurnOnTrack(RolledTurn, frozen=True, kw_only=True):
             s = angle_symbol(drawing.scene, self.driver)
         else:
             radius, way = (radius, way) if way >= 0 else (-radius, -way)
-            ends = {
-                "start": place(drawing, self.on, self.through),
-                "end": symbol(self.touching),
-            }
+            ends = {"start": place(drawing, self.on, self.through), "end": symbol(self.touching)}
             read = as_read(drawing, drawing.on_paper(way), drawing.scales.kL / 1000)
             yield Relation(s, "", *read, "m", words("calculation.measured_way", **ends))
         sign, sense = ("−", -1) if radius > 0 else ("+", 1)

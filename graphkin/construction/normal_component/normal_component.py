@@ -159,11 +159,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
 
     def symbols(self) -> Mapping[str, str]:
         """The pivot, the pin and their bar."""
-        return {
-            "p": symbol(self.p),
-            "q": symbol(self.q),
-            "bar": bar(self.p, self.q),
-        }
+        return {"p": symbol(self.p), "q": symbol(self.q), "bar": bar(self.p, self.q)}
 
     @classmethod
     def cause(cls, scene: Scene) -> str:

@@ -22,7 +22,7 @@ from graphkin.construction.core.program import Effect, Plane, Step, plan_vector
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.velocity.lines_through import PerpendicularThrough
+from graphkin.construction.velocity.relative_motion import PerpendicularThrough
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
@@ -201,7 +201,6 @@ class CentrePath(Construction, frozen=True, kw_only=True):
     line: int
 
     def path_name(self, drawing: Drawing) -> str:
-        """The words for the path of the centre."""
         return drawing.words("page.trajectory", of=symbol(self.centre))
 
     def clause(self, drawing: Drawing, role: str) -> str:

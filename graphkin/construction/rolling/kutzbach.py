@@ -154,13 +154,7 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
 
     gives: ClassVar[tuple[str, ...]] = ("foot", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.ladder_tip"}
-    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
-        (
-            "foot",
-            "tip",
-        ),
-        ByHand.LAID_OFF,
-    )
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("foot", "tip"), ByHand.LAID_OFF)
 
     point: str
     before: int
@@ -225,13 +219,7 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
     gives: ClassVar[tuple[str, ...]] = ("pole", "start", "line")
     reasons: ClassVar[Mapping[str, str]] = {"start": "why.ladder_scale"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of speeds"}
-    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(
-        (
-            "pole",
-            "start",
-        ),
-        ByHand.LAID_OFF,
-    )
+    pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("pole", "start"), ByHand.LAID_OFF)
 
     p: str
     q: str

@@ -6,12 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar
 
 from graphkin.construction.core.canvas import Canvas
-from graphkin.construction.core.component import (
-    Component,
-    OwnSizes,
-    Size,
-    components_on,
-)
+from graphkin.construction.core.component import Component, OwnSizes, Size, components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction, Run, Wording
 from graphkin.construction.core.naming import drawn_between, laid_off_words, rate_symbol

@@ -29,7 +29,7 @@ from graphkin.construction.velocity.image_of_link import (
     image_under,
     translated_image,
 )
-from graphkin.construction.velocity.lines_through import parallel_through
+from graphkin.construction.velocity.relative_motion import parallel_through
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.numbers.arithmetic import Real

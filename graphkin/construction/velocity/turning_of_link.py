@@ -109,14 +109,7 @@ def turning_of_link(
     rate = pen.draw(ACTIONS[quantity], *places, *images, name=link)
     p, q = letters
     found = TurningOfLink(
-        quantity=quantity,
-        link=link,
-        p=p,
-        q=q,
-        index=index,
-        places=places,
-        images=images,
-        rate=rate,
+        quantity=quantity, link=link, p=p, q=q, index=index, places=places, images=images, rate=rate
     )
     return pen.make(found).rate
 

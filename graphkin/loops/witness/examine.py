@@ -340,11 +340,7 @@ class Examined(Struct, frozen=True, eq=False):
 
 
 def examine(
-    scene: Scene,
-    solution: Solution,
-    values: Mapping[str, Any] | None,
-    *,
-    numbered: int = NUMBERED,
+    scene: Scene, solution: Solution, values: Mapping[str, Any] | None, *, numbered: int = NUMBERED
 ) -> Examined:
     """The comparison of one solution, by ``Check.examine``."""
     return Check(scene, values).examine(solution, numbered=numbered)

@@ -319,10 +319,7 @@ class PlaneChart(Struct, frozen=True, dict=True):
 
 
 def plane_page(
-    plane: PlaneChart,
-    below: Sequence[Mark],
-    above: Sequence[Mark] = (),
-    note: str = "",
+    plane: PlaneChart, below: Sequence[Mark], above: Sequence[Mark] = (), note: str = ""
 ) -> Page:
     """The page of a figure in the plane: marks ``below`` its curves and ``above`` them."""
     left, top, right, low = rect = plane.rect
