@@ -872,8 +872,8 @@ def course_page(
     marks: list[Mark] = []
     for index, each in enumerate(some):
         row, column = divmod(index, columns)
-        left, top = left_of + column * wide + 12, begin + row * high + 3
-        rect = left, top, left + wide - 24, top + high - 10
+        left, top = left_of + column * wide + 16, begin + row * high + 3
+        rect = left, top, left + wide - 28, top + high - 10
         marks += small_diagram(found, at, fine, each, rect)
     whole: list[Mark] = [
         *heading(found, drawing, words("sheet.courses")),
