@@ -24,7 +24,7 @@ from graphkin.construction.core.kind import Slip, constructions
 from graphkin.construction.core.naming import drawn_amount, drawn_in, scale_of
 from graphkin.construction.core.palette import MECHANISM, Move, PaletteAction, Picked, Picks
 from graphkin.construction.core.pen import Pen, letter
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -112,13 +112,11 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
     The foot is the end of the component of the acceleration on the ``normal`` to the path.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("tip", "foot", "line")
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ at {tip}"}
 
     normal: VelocityNormal
-    tip: int
-    foot: int
-    line: int
+    tip: OwnStep
+    foot: OwnStep
 
     def symbols(self) -> Mapping[str, str]:
         """The point, its velocity and its acceleration."""
@@ -190,7 +188,6 @@ class PathCentre(Centre, frozen=True, kw_only=True):
     perpendicular at the tip of the velocity.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("crossing", "found", "circle")
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.curvature"}
     slips: ClassVar[Mapping[str, Slip]] = {"curvature_reversed": Slip(-1, "moderate")}
     key: ClassVar[str] = "curvature-centre"
@@ -202,7 +199,7 @@ class PathCentre(Centre, frozen=True, kw_only=True):
     image: int
     second_pole: int
     second_image: int
-    circle: int
+    circle: OwnStep
 
     def title(self, role: str) -> str:
         """The name of the centre in a report."""
