@@ -155,17 +155,16 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the crossing; empty for divided points, which share one sentence."""
-        if not self.is_crossed(drawing.trace.values):
-            return ""
-        name = drawing.trace.program.steps[self.value].name
-        return drawing.words("step.meet", name=drawing.symbol(name))
+        return self.crossing_words(drawing, "step.meet")
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
         """The sentence for the crossing, on its own."""
-        if not self.is_crossed(drawing.trace.values):
-            return ""
-        name = drawing.trace.program.steps[self.value].name
-        return drawing.words("step.meet-apart", name=drawing.symbol(name))
+        return self.crossing_words(drawing, "step.meet-apart")
+
+    def crossing_words(self, drawing: Drawing, key: str) -> str:
+        """The words of a key for the crossing; empty where the point divides its line."""
+        crossed = self.is_crossed(drawing.trace.values)
+        return drawing.words(key, name=drawing.lettered(self.value)) if crossed else ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the point, with the line of its trials where no other step draws that line."""
