@@ -23,7 +23,7 @@ from graphkin.numbers.kinds import ball_kind, is_real_ball
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Scene
 from graphkin.structure.pairs import is_in_scene
-from graphkin.text.errors import ClosureError, GraphkinError, Problem, WitnessError, message
+from graphkin.text.errors import ClosureError, GraphkinError, WitnessError, message
 
 AROUND = {"turn": 60.0}
 """The distance, in degrees, that a turning driver is moved from the scene's position."""
@@ -185,8 +185,8 @@ def approach(ground: Ground, groups: int, each: int, share: float = 0.0) -> Appr
     piece = ground.piece
     low, high = piece.low.at, piece.high.at
     if not low < high:
-        raise ClosureError(
-            Problem("accuracy", message("the driver cannot move"), message("a range to move in"))
+        raise ClosureError.at(
+            "accuracy", message("the driver cannot move"), message("a range to move in")
         )
     count = groups * each
     at = low + (np.arange(count) + 0.5) * (high - low) / count
@@ -364,14 +364,12 @@ def reference_of(
         sines.append(min(margins, default=1.0))
         kept.append(number)
     if not found:
-        raise WitnessError(
-            Problem(
-                "reference",
-                message(
-                    "no position near the scene's own can be certified with {bits} bits", bits=bits
-                ),
-                message("a position that is not singular within such a ball"),
-            )
+        raise WitnessError.at(
+            "reference",
+            message(
+                "no position near the scene's own can be certified with {bits} bits", bits=bits
+            ),
+            message("a position that is not singular within such a ball"),
         )
     sizes = np.array([sizes_of(each, answers) for each in found])
     radii = np.array([radii_of(each, answers) for each in found])

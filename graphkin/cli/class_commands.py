@@ -310,7 +310,7 @@ def quiz(
     from graphkin.documents.sheet_documents import language_of
     from graphkin.mechanism import Mechanism
     from graphkin.scene.read_scene import read_text
-    from graphkin.text.errors import Problem, SceneError, message
+    from graphkin.text.errors import SceneError, message
     from graphkin.writers.files import refuse_folder, write_all
 
     whole = read_edition(Path(name)) if (Path(name) / MANIFEST).is_file() else None
@@ -325,8 +325,8 @@ def quiz(
     refuse_folder(folder, [file for file, _ in chosen], force=force)
     if not lab.rubric.points:
         hint = message("give points in [marks] of lab.toml")
-        raise SceneError(
-            Problem(lab.name, message("no field earns marks"), message("a field that does"), hint)
+        raise SceneError.at(
+            lab.name, message("no field earns marks"), message("a field that does"), hint
         )
     fair, unfair = variants_of(lab, count)
     for each in unfair[:SHOWN]:
@@ -335,7 +335,7 @@ def quiz(
     if len(unfair) > SHOWN:
         complain(f"and {len(unfair) - SHOWN} more unfair variants")
     if not fair:
-        raise SceneError(Problem(lab.name, message("no variant is fair"), message("one at least")))
+        raise SceneError.at(lab.name, message("no variant is fair"), message("one at least"))
     scene = lab.scene.read_text(encoding="utf-8-sig")
     words = language_of(Mechanism(read_text(scene, lab.name, house=lab.house)), lang)
     order = PrintOrder(lab, scene, words.language, "colour")

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from graphkin.cli.options import Option
-from graphkin.text.errors import FileError, Problem, message
+from graphkin.text.errors import FileError, message
 
 
 class FolderType(click.Path):
@@ -20,7 +20,7 @@ class FolderType(click.Path):
             self.fail("the name of the folder is empty; . is the current one", param, ctx)
         if Path(value).is_file():
             hint = message("name another folder with -o")
-            raise FileError(Problem(str(value), message("is a file"), message("a folder"), hint))
+            raise FileError.at(str(value), message("is a file"), message("a folder"), hint)
         return super().convert(value, param, ctx)
 
 

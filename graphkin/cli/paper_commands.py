@@ -25,7 +25,7 @@ from graphkin.cli.options import (
 )
 from graphkin.cli.page_commands import browser_option, port_option, refuse_without, show
 from graphkin.documents.view_names import PRINTED_VIEWS
-from graphkin.text.errors import PageError, Problem, message, verbatim
+from graphkin.text.errors import PageError, message, verbatim
 
 if TYPE_CHECKING:
     from graphkin.classroom.printing.print_run import Outcome, Tell
@@ -293,10 +293,10 @@ def read_grid(path: Path | None) -> Grid:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None)
         found = verbatim(str(reason).lower()) if reason else message("is no such JSON")
-        raise PageError(Problem(f"--grid {path}", found, expected)) from None
+        raise PageError.at(f"--grid {path}", found, expected) from None
     if not 0 < len(grid.x) * len(grid.y) <= MOST_PLACES:
         found = message("has {count} places", count=len(grid.x) * len(grid.y))
-        raise PageError(Problem(f"--grid {path}", found, message("1 to {most}", most=MOST_PLACES)))
+        raise PageError.at(f"--grid {path}", found, message("1 to {most}", most=MOST_PLACES))
     return grid
 
 

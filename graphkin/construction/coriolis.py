@@ -30,7 +30,15 @@ from graphkin.construction.core.naming import (
 )
 from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks
 from graphkin.construction.core.pen import PRIME, Pen, has_arrow, letter
-from graphkin.construction.core.program import Effect, Part, Plane, PlanVector, foot_of, plan_vector
+from graphkin.construction.core.program import (
+    Effect,
+    OwnStep,
+    Part,
+    Plane,
+    PlanVector,
+    foot_of,
+    plan_vector,
+)
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -101,7 +109,6 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     and ``foot`` is the tip of 2v. The lines ``edge`` and ``lean`` meet in ``top``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("velocity", "foot", "edge", "lean", "top", "read", "vector")
     sign: ClassVar[str] = "c"
     look: ClassVar[str] = "coriolis"
     effect: ClassVar[Effect] = "Coriolis"
@@ -142,11 +149,11 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
     own_letters: str = ""
     pivot: int | None = None
     pin: int | None = None
-    velocity: int | None = None
-    foot: int | None = None
-    edge: int | None = None
-    lean: int | None = None
-    top: int | None = None
+    velocity: OwnStep | None = None
+    foot: OwnStep | None = None
+    edge: OwnStep | None = None
+    lean: OwnStep | None = None
+    top: OwnStep | None = None
 
     def speed(self, drawing: Drawing) -> str:
         """The name of the velocity along the guide from which it follows, as in its plan."""

@@ -13,7 +13,7 @@ from graphkin.construction.core.program import PairForce, Program
 from graphkin.construction.core.run import StepFailed, Trace, Values, run
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import cross
-from graphkin.text.errors import Problem, StructureError, message
+from graphkin.text.errors import StructureError, message
 
 
 class PairReaction(Struct, frozen=True):
@@ -67,7 +67,7 @@ def reactions_of(program: Program, values: Values, motion: Trace) -> ForceSoluti
     except StepFailed:
         found = message("a polygon of forces does not close")
         expected = message("a position away from the dead point")
-        raise StructureError(Problem("loads", found, expected)) from None
+        raise StructureError.at("loads", found, expected) from None
     balance = []
     for each in program.balances:
         value = each.sense * trace.values[each.step]

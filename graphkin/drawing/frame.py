@@ -25,7 +25,7 @@ from graphkin.drawing.field import (
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, box, moved
 from graphkin.drawing.richtext import extent, flowed, plain, words_of
 from graphkin.drawing.symbol_markup import escape
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 
 BAND, FIELD = 5.0, 50.0  # grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # without I and O
@@ -298,13 +298,11 @@ def fitting(
         wide = max(extent(line, height)[0] for line in lines)
         if wide <= room and (len(lines) - 1) * leading * height + height <= depth:
             return lines, height
-    raise PageError(
-        Problem(
-            message("title block, {name}", name=name.replace("_", " ")),
-            message("“{text}” does not fit in the smallest lettering", text=text),
-            message("text for {room:g} × {depth:g} mm", room=room, depth=depth),
-            message("shorten the text"),
-        )
+    raise PageError.at(
+        message("title block, {name}", name=name.replace("_", " ")),
+        message("“{text}” does not fit in the smallest lettering", text=text),
+        message("text for {room:g} × {depth:g} mm", room=room, depth=depth),
+        message("shorten the text"),
     )
 
 
@@ -517,10 +515,8 @@ def ends(y: float, words: tuple[str, str], name: str) -> list[Mark]:
             found = message(
                 "“{text}” is too long: {count} letters", text=plain(first), count=len(plain(first))
             )
-            raise PageError(
-                Problem(
-                    name, found, message("about {fits} letters", fits=fits), message("shorten it")
-                )
+            raise PageError.at(
+                name, found, message("about {fits} letters", fits=fits), message("shorten it")
             )
     low = y + CLOSE * (len(lines) - 1) / 2
     marks: list[Mark] = [

@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphkin.text import paths
-from graphkin.text.errors import Message, PageError, Problem, message
+from graphkin.text.errors import Message, PageError, message
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -65,12 +65,10 @@ def missing(text: str, italic: bool) -> PageError:
     """The error that names the characters of a text that the font does not have."""
     signs = sorted(set(text) - measures(italic).keys())
     names = ", ".join(f"“{sign}” (U+{ord(sign):04X})" for sign in signs)
-    return PageError(
-        Problem(
-            message("text “{text}”", text=text),
-            message("{names} not in the sheet's font", names=names),
-            message("Latin, Greek, mathematics"),
-        )
+    return PageError.at(
+        message("text “{text}”", text=text),
+        message("{names} not in the sheet's font", names=names),
+        message("Latin, Greek, mathematics"),
     )
 
 
@@ -184,7 +182,7 @@ def plain(markup: str) -> str:
 def broken(markup: str, found: Message) -> PageError:
     """The error for a markup that cannot be read."""
     hint = message("write \\* \\_ \\^ \\{{ \\}} for the signs themselves")
-    return PageError(Problem(message("markup “{markup}”", markup=markup), found, hint=hint))
+    return PageError.at(message("markup “{markup}”", markup=markup), found, hint=hint)
 
 
 def pieces(markup: str) -> list[TextPiece]:

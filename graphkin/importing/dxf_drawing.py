@@ -13,7 +13,7 @@ from typing import Any
 
 from graphkin.importing.figure import NEAR, BarFigure
 from graphkin.importing.record import named, number, refused
-from graphkin.text.errors import Message, Problem, SceneError, joined, message
+from graphkin.text.errors import Message, SceneError, joined, message
 
 PROGRAM = "DXF"
 UNITS = {1: "in", 4: "mm", 5: "cm", 6: "m"}
@@ -34,7 +34,7 @@ def dxf_figure(text: str) -> BarFigure:
         from ezdxf.lldxf.const import DXFError
     except ImportError:
         hint = message("install it: pip install 'graphkin[cad]'")
-        raise SceneError(Problem("dxf", message("needs ezdxf"), hint=hint)) from None
+        raise SceneError.at("dxf", message("needs ezdxf"), hint=hint) from None
     try:
         drawing = ezdxf.read(io.StringIO(text))
         entities = [*drawing.modelspace()]

@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element, ParseError
 
 from msgspec import Struct
 
-from graphkin.text.errors import NO_WORDS, Message, Problem, SceneError, message, verbatim
+from graphkin.text.errors import NO_WORDS, Message, SceneError, message, verbatim
 
 MOST = 200
 """The most joints, and the most links."""
@@ -112,7 +112,7 @@ class Imported(Struct, frozen=True):
 
 def refused(found: Message, expected: Message = NO_WORDS) -> SceneError:
     """The error of a text that cannot be imported."""
-    return SceneError(Problem("import", found, expected))
+    return SceneError.at("import", found, expected)
 
 
 def number(text: str, factor: float = 1.0) -> float:

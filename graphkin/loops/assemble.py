@@ -402,12 +402,10 @@ def anywhere(loops: Equations) -> Reals:
         gaps = largest(scaled(free, found)[0])
     if (gaps < AT_REST).any():
         return found[gaps < AT_REST]
-    raise WitnessError(
-        Problem(
-            "loops",
-            message("the loops do not close from any of {tries} starts", tries=TRIES),
-            message("lengths for which the mechanism can be assembled"),
-        )
+    raise WitnessError.at(
+        "loops",
+        message("the loops do not close from any of {tries} starts", tries=TRIES),
+        message("lengths for which the mechanism can be assembled"),
     )
 
 
@@ -428,12 +426,10 @@ def refuse_undetermined(loops: Equations, order: list[Group]) -> None:
     placed = {link for group in order for link in group.links}
     left = [link for link in loops.links if link not in placed and link != FRAME]
     if left:
-        raise StructureError(
-            Problem(
-                "drivers",
-                message("nothing determines the motion of {left}", left=links_words(left)),
-                message("as many drivers as the mechanism has freedoms"),
-            )
+        raise StructureError.at(
+            "drivers",
+            message("nothing determines the motion of {left}", left=links_words(left)),
+            message("as many drivers as the mechanism has freedoms"),
         )
 
 
@@ -444,15 +440,11 @@ def picked(scene: Scene, loops: Equations, part: Equations, group: Group, found:
     WitnessError if no closure fits the statements, StructureError if several do.
     """
     if not len(found):
-        raise WitnessError(
-            Problem(
-                links_words(group.links),
-                message("they do not close")
-                if len(group.links) > 1
-                else message("it does not close"),
-                message("lengths and driver positions for which the mechanism can be assembled"),
-                about=(Sought(tuple(group.links)),),
-            )
+        raise WitnessError.at(
+            links_words(group.links),
+            message("they do not close") if len(group.links) > 1 else message("it does not close"),
+            message("lengths and driver positions for which the mechanism can be assembled"),
+            about=(Sought(tuple(group.links)),),
         )
     holds = np.ones(len(found), dtype=np.bool_)
     motion = places_of(part, found)

@@ -300,19 +300,17 @@ def driven_slide(number: int, driver: Driver, guides: Sequence[Guide]) -> int:
     for index, guide in enumerate(guides):
         if (guide.block, guide.on, guide.moved_by) == (driver.link, driver.against, driver.kind):
             return index
-    raise StructureError(
-        Problem(
-            f"drivers.{number + 1}",
-            message(
-                "link {link} does not {kind} on link {against}",
-                link=driver.link,
-                kind=driver.kind,
-                against=driver.against,
-            ),
-            message("a block and the link that carries its guide")
-            if driver.kind == "slide"
-            else message("a wheel and the link that carries its straight track"),
-        )
+    raise StructureError.at(
+        f"drivers.{number + 1}",
+        message(
+            "link {link} does not {kind} on link {against}",
+            link=driver.link,
+            kind=driver.kind,
+            against=driver.against,
+        ),
+        message("a block and the link that carries its guide")
+        if driver.kind == "slide"
+        else message("a wheel and the link that carries its straight track"),
     )
 
 

@@ -26,7 +26,7 @@ from graphkin.scene.model import FRAME, Driver, Scene, joined_words
 from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Contact, contacts
 from graphkin.structure.touching_wheels import radius, track_line
-from graphkin.text.errors import Problem, StructureError, joined, message
+from graphkin.text.errors import StructureError, joined, message
 
 RANK = 1e-10
 """Share of the largest singular value below which a constraint counts as redundant."""
@@ -217,7 +217,7 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
         if each.rolling.belt is not None:
             found = message("the forces of the belt of {links}", links=joined_words(each.links))
             hint = message("equilibrium gives the difference of both strands, not their sum")
-            raise StructureError(Problem("loads", found, message("wheels that touch"), hint))
+            raise StructureError.at("loads", found, message("wheels that touch"), hint)
         centre, track = pin_of(motion, each.wheel.centre), each.track
         if track is None:
             line = line_of(scene, motion, each)
@@ -259,12 +259,10 @@ def cams_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
         tip = pin_of(motion, cam.point)
         slip, turned = slip_of(scene, motion, follower)
         if cam.conjugate is not None or not slip or (cam.is_flat and not turned):
-            raise StructureError(
-                Problem(
-                    "loads",
-                    message("the force of the cam of {links}", links=joined_words(links)),
-                    message("one roller, knife or face that slips along a moving cam"),
-                )
+            raise StructureError.at(
+                "loads",
+                message("the force of the cam of {links}", links=joined_words(links)),
+                message("one roller, knife or face that slips along a moving cam"),
             )
         if not cam.is_flat:
             yield Touching(name, links, tip, 1j * slip / abs(slip))
@@ -415,9 +413,9 @@ def refuse_undetermined(columns: list[Column], matrix: Reals) -> None:
             names=joined(", ", names),
         )
         expected = message("as many unknown forces as equations")
-        raise StructureError(Problem("loads", found, expected))
+        raise StructureError.at("loads", found, expected)
     found = message("no finite forces at {names} hold the loads here", names=joined(", ", names))
-    raise StructureError(Problem("loads", found, message("a position away from the dead point")))
+    raise StructureError.at("loads", found, message("a position away from the dead point"))
 
 
 def gathered(columns: list[Column], values: list[float], size: float) -> Equilibrium:

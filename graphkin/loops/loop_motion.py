@@ -11,7 +11,7 @@ from msgspec import Struct
 from graphkin.loops.equations import Equations
 from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
 from graphkin.scene.link_points import ends_of
-from graphkin.text.errors import Problem, StructureError, message
+from graphkin.text.errors import StructureError, message
 
 Spot = tuple[str, int, str]
 """A guide, by its block, its number on the block, and whether it is a track."""
@@ -166,12 +166,10 @@ class Motion(Struct, frozen=True, eq=False):
         point, carrier = ends_of(name)
         if point not in self.names or (carrier and carrier not in self.index):
             known = ", ".join(self.names)
-            raise StructureError(
-                Problem(
-                    "points",
-                    message("no link has the point {name}", name=name),
-                    message("one of {names}", names=known),
-                )
+            raise StructureError.at(
+                "points",
+                message("no link has the point {name}", name=name),
+                message("one of {names}", names=known),
             )
         p = self.names[point]
         if carrier:

@@ -20,7 +20,7 @@ from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.loops.rounding import Rounding, rounding, straight
 from graphkin.scene.model import FRAME
-from graphkin.text.errors import NO_WORDS, Problem, StructureError, WitnessError, message
+from graphkin.text.errors import NO_WORDS, StructureError, WitnessError, message
 
 LOOSE = 1e-9
 """Share of a unit direction below which the linear equations determine an unknown."""
@@ -570,18 +570,14 @@ def refuse_undriven(loops: Equations) -> None:
     """Raise StructureError if there are fewer equations than unknowns."""
     missing = loops.unknown_count - loops.equation_count
     if missing > 0:
-        raise StructureError(
-            Problem(
-                "drivers",
-                message(
-                    "{unknown_count} unknowns but only {equation_count} loop and driver equations",
-                    unknown_count=loops.unknown_count,
-                    equation_count=loops.equation_count,
-                ),
-                message(
-                    "1 more driver" if missing == 1 else "{missing} more drivers", missing=missing
-                ),
-            )
+        raise StructureError.at(
+            "drivers",
+            message(
+                "{unknown_count} unknowns but only {equation_count} loop and driver equations",
+                unknown_count=loops.unknown_count,
+                equation_count=loops.equation_count,
+            ),
+            message("1 more driver" if missing == 1 else "{missing} more drivers", missing=missing),
         )
 
 
@@ -596,29 +592,25 @@ def refuse_failure(loops: Equations, unknowns: Reals, report: Report) -> None:
             "over-constrained closes only with lengths that fit",
             spare=spare,
         )
-        raise WitnessError(
-            Problem(
-                "loops",
-                message(
-                    "the loops do not close: after {iterations} iterations {remains:.3g} m "
-                    "remain open, most at {place}",
-                    iterations=report.iterations,
-                    remains=report.remains[0],
-                    place=widest(loops, unknowns),
-                ),
-                message("lengths and driver positions for which the mechanism can be assembled"),
-                hint if spare > 0 else NO_WORDS,
-            )
-        )
-    raise WitnessError(
-        Problem(
+        raise WitnessError.at(
             "loops",
-            message("singular position, or so near to one that rounding hides the difference"),
-            message("a position in which the drivers' speeds determine all others"),
             message(
-                "which positions are singular depends on the driver: drive another link or move on"
+                "the loops do not close: after {iterations} iterations {remains:.3g} m "
+                "remain open, most at {place}",
+                iterations=report.iterations,
+                remains=report.remains[0],
+                place=widest(loops, unknowns),
             ),
+            message("lengths and driver positions for which the mechanism can be assembled"),
+            hint if spare > 0 else NO_WORDS,
         )
+    raise WitnessError.at(
+        "loops",
+        message("singular position, or so near to one that rounding hides the difference"),
+        message("a position in which the drivers' speeds determine all others"),
+        message(
+            "which positions are singular depends on the driver: drive another link or move on"
+        ),
     )
 
 

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.loops.rigid_bodies import Body, Guide, Numbers, Parallel, Reals, radius, written_line
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.model import FRAME, Rolling, Scene, Wheel
-from graphkin.text.errors import Message, Problem, StructureError, message
+from graphkin.text.errors import Message, StructureError, message
 
 
 class Chain(Struct, frozen=True):
@@ -85,16 +85,14 @@ def refuse_unknown_lean(turned: Turnings, guides: Sequence[Guide]) -> None:
     """
     for guide in guides:
         if guide.turns_alike and turned.of[guide.block] != turned.of[guide.on]:
-            raise StructureError(
-                Problem(
-                    f"links.{guide.block}.slides",
-                    message("the angle between this block and link {on} is not known", on=guide.on),
-                    hint=message(
-                        "write link {on} as the block that slides on {block}",
-                        on=guide.on,
-                        block=guide.block,
-                    ),
-                )
+            raise StructureError.at(
+                f"links.{guide.block}.slides",
+                message("the angle between this block and link {on} is not known", on=guide.on),
+                hint=message(
+                    "write link {on} as the block that slides on {block}",
+                    on=guide.on,
+                    block=guide.block,
+                ),
             )
 
 
@@ -395,19 +393,15 @@ def touching(
     best = min(kept, key=gap)
     if best.rolling.belt is None and numbers.single and not gap(best) <= TOUCH:
         first, second = (wheel.centre for wheel in best.wheels)
-        raise StructureError(
-            Problem(
-                f"links.{name}.rolls",
-                message(
-                    "the wheels of links {name} and {on} do not touch", name=name, on=rolling.on
-                ),
-                message(
-                    "radii that make the distance {first}-{second} on link {arm}",
-                    first=first,
-                    second=second,
-                    arm=best.arm,
-                ),
-            )
+        raise StructureError.at(
+            f"links.{name}.rolls",
+            message("the wheels of links {name} and {on} do not touch", name=name, on=rolling.on),
+            message(
+                "radii that make the distance {first}-{second} on link {arm}",
+                first=first,
+                second=second,
+                arm=best.arm,
+            ),
         )
     return best
 

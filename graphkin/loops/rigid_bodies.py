@@ -38,7 +38,7 @@ from graphkin.scene.model import (
     Wheel,
 )
 from graphkin.scene.quantity import Quantity
-from graphkin.text.errors import Problem, StructureError, message
+from graphkin.text.errors import StructureError, message
 
 Reals = np.ndarray[Any, np.dtype[np.float64]]
 Complexes = np.ndarray[Any, np.dtype[np.complex128]]
@@ -143,12 +143,10 @@ def placed_points(link: Link, numbers: Numbers) -> dict[str, Point]:
         for placing in link.placings:
             place = located(placing, placed, numbers)
             if numbers.single and not np.isfinite(place):
-                raise StructureError(
-                    Problem(
-                        f"links.{link.name}.{placing.point}",
-                        message("the lengths give no such point"),
-                        message("sides of a triangle, each shorter than the other two together"),
-                    )
+                raise StructureError.at(
+                    f"links.{link.name}.{placing.point}",
+                    message("the lengths give no such point"),
+                    message("sides of a triangle, each shorter than the other two together"),
                 )
             placed[placing.point] = place
     for point in link.points:

@@ -24,7 +24,7 @@ from graphkin.motion.driving import TURN
 from graphkin.motion.sweep import name_of
 from graphkin.motion.turns_followed import Followed, following, led
 from graphkin.scene.model import Closure
-from graphkin.text.errors import ClosureError, Problem, message
+from graphkin.text.errors import ClosureError, message
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 
@@ -364,6 +364,6 @@ def too_many(course: Course) -> ClosureError:
         unit=sweep.unit,
     )
     most = message("at most {most} positions of the driver", most=MOST)
-    return ClosureError(
-        Problem(message("the cycle"), found, most, message("show less with --from and --to"))
+    return ClosureError.at(
+        message("the cycle"), found, most, message("show less with --from and --to")
     )

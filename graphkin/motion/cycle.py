@@ -214,8 +214,8 @@ def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int, turns: int = 1)
         found = message(
             "{steps} steps of {count} quantities", steps=steps, count=len(mechanism.program.answers)
         )
-        raise SceneError(
-            Problem("--steps", found, message("1 to {most} steps for this mechanism", most=most))
+        raise SceneError.at(
+            "--steps", found, message("1 to {most} steps for this mechanism", most=most)
         )
     least = 4 * float(np.spacing(max(abs(sweep.low), abs(sweep.high))))
     if (step := (sweep.high - sweep.low) / steps) < least:
@@ -228,10 +228,8 @@ def refuse_steps(mechanism: Mechanism, sweep: Sweep, steps: int, turns: int = 1)
             unit=sweep.unit,
         )
         hint = message("show more, or in fewer steps")
-        raise SceneError(
-            Problem(
-                "--from, --to", found, message("steps of at least {least:.1e}", least=least), hint
-            )
+        raise SceneError.at(
+            "--from, --to", found, message("steps of at least {least:.1e}", least=least), hint
         )
 
 

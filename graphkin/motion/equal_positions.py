@@ -10,7 +10,7 @@ from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.follower_limits import followers
 from graphkin.motion.pieces import ALIKE
-from graphkin.text.errors import Problem, SceneError, message
+from graphkin.text.errors import SceneError, message
 
 Start = Literal["scene", "dead"]
 """Where positions are counted from: the scene's own position, or a dead point."""
@@ -57,12 +57,10 @@ def dead_point(cycle: Cycle, place: str) -> float:
         return low.at
     found = [each.low.at for each in followers(cycle) if each.limits and not each.low.edge]
     if not found:
-        raise SceneError(
-            Problem(
-                place,
-                message("neither the driver nor a follower has a dead point"),
-                message("the position of the scene"),
-            )
+        raise SceneError.at(
+            place,
+            message("neither the driver nor a follower has a dead point"),
+            message("the position of the scene"),
         )
     return found[-1]
 

@@ -37,7 +37,7 @@ from graphkin.motion.turns_followed import (
 )
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Branch, Closure, Side
-from graphkin.text.errors import ClosureError, GraphkinError, Problem, SceneError, joined, message
+from graphkin.text.errors import ClosureError, GraphkinError, SceneError, joined, message
 
 MOST_BEYOND = 8
 """The most closures of a higher-class group that are tried beyond a change point."""
@@ -241,13 +241,11 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
             return shown(sweep, first)
     ranges = [*first.ranges, *others(course, first)]
     if not ranges:
-        raise ClosureError(
-            Problem(
-                message("the cycle"),
-                message("it closes for no position of the driver"),
-                message("lengths that can be assembled"),
-                message("graphkin check shows what is wrong"),
-            )
+        raise ClosureError.at(
+            message("the cycle"),
+            message("it closes for no position of the driver"),
+            message("lengths that can be assembled"),
+            message("graphkin check shows what is wrong"),
         )
     return shown(sweep, replace(first, ranges=tuple(ranges)))
 
@@ -290,18 +288,16 @@ def shown(sweep: Sweep, path: Path) -> Path:
         ", ",
         (message("from {low:.10g} to {high:.10g}", low=low, high=high) for low, high in path.spans),
     )
-    raise ClosureError(
-        Problem(
-            "--from, --to",
-            message(
-                "it closes nowhere from {low:.10g} to {high:.10g} {unit}",
-                low=sweep.low,
-                high=sweep.high,
-                unit=sweep.unit,
-            ),
-            message("a window that the driver reaches"),
-            message("it closes {spans} {unit}", spans=spans, unit=sweep.unit),
-        )
+    raise ClosureError.at(
+        "--from, --to",
+        message(
+            "it closes nowhere from {low:.10g} to {high:.10g} {unit}",
+            low=sweep.low,
+            high=sweep.high,
+            unit=sweep.unit,
+        ),
+        message("a window that the driver reaches"),
+        message("it closes {spans} {unit}", spans=spans, unit=sweep.unit),
     )
 
 
@@ -358,7 +354,7 @@ def refuse_far(sweep: Sweep) -> None:
             start=sweep.start,
         )
         hint = message("give a window that is narrower, or nearer to the position of the scene")
-        raise SceneError(Problem("--from, --to", found, most, hint))
+        raise SceneError.at("--from, --to", found, most, hint)
 
 
 def in_numbers(found: Range) -> Range:
@@ -574,10 +570,8 @@ def marched(course: Course, start: float, stop: float) -> Range:
         start=start,
         stop=stop,
     )
-    raise ClosureError(
-        Problem(
-            message("the cycle"), found, message("fewer"), message("show less with --from and --to")
-        )
+    raise ClosureError.at(
+        message("the cycle"), found, message("fewer"), message("show less with --from and --to")
     )
 
 

@@ -37,7 +37,7 @@ from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import FRAME, Branch, Driver, Scene
 from graphkin.scene.quantity import Quantity
 from graphkin.structure.turn_counting import counted_near
-from graphkin.text.errors import Problem, SceneError, message, verbatim
+from graphkin.text.errors import SceneError, message, verbatim
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 
@@ -122,7 +122,7 @@ def window(
     """
     for option, bound in (("--from", low), ("--to", high)):
         if bound is not None and not isfinite(bound):
-            raise SceneError(Problem(option, verbatim(f"{bound:g}"), message("a finite number")))
+            raise SceneError.at(option, verbatim(f"{bound:g}"), message("a finite number"))
     if what == "turn" and low is None and high is None:
         return start, start + TURN, True
     if what == "turn":
@@ -147,7 +147,7 @@ def window(
             last=last,
             unit=COORDINATES[what].unit,
         )
-        raise SceneError(Problem("--from, --to", found, message("a window that grows")))
+        raise SceneError.at("--from, --to", found, message("a window that grows"))
     return first, last, False
 
 
@@ -236,13 +236,11 @@ def whole_turn(scene: Scene) -> float:
         span = (to_and_fro if TIME in driver.position.uses() else until_rest)(driver, scene)
         if span is not None:
             return span
-    raise SceneError(
-        Problem(
-            "drivers",
-            message("no driver makes a whole turn or turns back again and again"),
-            message("a time to end"),
-            message("say with --from and --to which seconds to show"),
-        )
+    raise SceneError.at(
+        "drivers",
+        message("no driver makes a whole turn or turns back again and again"),
+        message("a time to end"),
+        message("say with --from and --to which seconds to show"),
     )
 
 
@@ -441,7 +439,7 @@ def chosen(scene: Scene, driver: int | None) -> int | None:
     """The swept driver, counted from 1; None where the time is swept."""
     drivers = scene.drivers
     if not drivers:
-        raise SceneError(Problem("drivers", message("none"), message("a driver to be moved")))
+        raise SceneError.at("drivers", message("none"), message("a driver to be moved"))
     if driver is not None:
         if not 1 <= driver <= len(drivers):
             expected = (
@@ -449,8 +447,8 @@ def chosen(scene: Scene, driver: int | None) -> int | None:
                 if len(drivers) > 1
                 else message("1, the only driver")
             )
-            raise SceneError(
-                Problem("--driver", message("there is no driver {driver}", driver=driver), expected)
+            raise SceneError.at(
+                "--driver", message("there is no driver {driver}", driver=driver), expected
             )
         return driver
     return None if len(drivers) > 1 or law_of_time(scene) else 1

@@ -49,8 +49,8 @@ def read_bytes(path: paths.Named) -> bytes:
         return file_bytes(path, LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or message("cannot be opened")
-        raise SceneError(
-            Problem(str(path), message("the scene cannot be read: {reason}", reason=reason))
+        raise SceneError.at(
+            str(path), message("the scene cannot be read: {reason}", reason=reason)
         ) from None
 
 
@@ -76,19 +76,17 @@ def whole_file(path: paths.Named, most: int = LARGEST_KEPT) -> bytes:
 def decoded(data: bytes) -> str:
     """The text of a scene file: UTF-8, with or without a byte order mark."""
     if len(data) > LARGEST:
-        raise SceneError(
-            Problem(
-                "",
-                message("the file is too large"),
-                message("at most {most} KiB", most=LARGEST // 1024),
-            )
+        raise SceneError.at(
+            "",
+            message("the file is too large"),
+            message("at most {most} KiB", most=LARGEST // 1024),
         )
     try:
         return data.decode().removeprefix("\ufeff")
     except UnicodeDecodeError as error:
         if data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
-            raise SceneError(
-                Problem("", message("the file is UTF-16"), message("a text saved as UTF-8"))
+            raise SceneError.at(
+                "", message("the file is UTF-16"), message("a text saved as UTF-8")
             ) from None
         line = data.count(b"\n", 0, error.start) + 1
         found = message("the byte 0x{data:02x} is not UTF-8", data=data[error.start])
@@ -132,21 +130,19 @@ def parsed(text: str) -> dict[str, Any]:
     except tomllib.TOMLDecodeError as error:
         raise SceneError(syntax_problem(str(error), text)) from None
     except (RecursionError, MemoryError):
-        raise SceneError(Problem("", message("lists or tables nested too deeply"))) from None
+        raise SceneError.at("", message("lists or tables nested too deeply")) from None
     except (ValueError, OverflowError) as error:
         found = message("a number or a date that cannot be read")
-        raise SceneError(Problem("", found, hint=verbatim(str(error)[:80]))) from None
+        raise SceneError.at("", found, hint=verbatim(str(error)[:80])) from None
 
 
 def refuse_bombs(text: str) -> None:
     """Raise SceneError for text that would take long to read: a large text, line or key."""
     if len(text) > LARGEST:
-        raise SceneError(
-            Problem(
-                "",
-                message("the scene is too large"),
-                message("at most {most} KiB", most=LARGEST // 1024),
-            )
+        raise SceneError.at(
+            "",
+            message("the scene is too large"),
+            message("at most {most} KiB", most=LARGEST // 1024),
         )
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > LONGEST_LINE:

@@ -18,7 +18,7 @@ from graphkin.scene.file_limits import LARGEST, decoded, tables_of, whole_file
 from graphkin.scene.findings import Findings, Table, listed, nearest, plain_text, shown
 from graphkin.scene.measures import FloatText
 from graphkin.text import LANGUAGES, paths
-from graphkin.text.errors import NO_WORDS, HouseError, Message, Problem, SceneError, message
+from graphkin.text.errors import NO_WORDS, HouseError, Message, SceneError, message
 from graphkin.text.school_signs import MEANINGS, NAMES, SCHOOLS, USUAL, SchoolSigns
 
 HOUSE = "house.toml"
@@ -375,7 +375,7 @@ def read_house(path: paths.Named) -> House:
         data = whole_file(path, LARGEST)
     except (OSError, ValueError) as error:
         hint = message("graphkin new house writes one")
-        raise HouseError(Problem(str(path), unreadable(error), NO_WORDS, hint)) from None
+        raise HouseError.at(str(path), unreadable(error), NO_WORDS, hint) from None
     try:
         return house_of(decoded(data), paths.folder_of(path))
     except SceneError as error:

@@ -215,10 +215,8 @@ def per_second(unit: str) -> str:
     rate = f"{unit}²" if unit.endswith("/s") else f"{unit}/s"
     rate = f"{unit[:-1]}³" if unit.endswith("/s²") else rate
     if rate not in SI:
-        raise SceneError(
-            Problem(
-                "", message("no unit for the derivative of a number in {value}", value=unit or "1")
-            )
+        raise SceneError.at(
+            "", message("no unit for the derivative of a number in {value}", value=unit or "1")
         )
     return rate
 

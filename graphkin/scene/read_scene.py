@@ -31,16 +31,7 @@ from graphkin.scene.requests import (
 )
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels, sized_by_teeth
 from graphkin.text import paths
-from graphkin.text.errors import (
-    NO_WORDS,
-    FirstLine,
-    GraphkinError,
-    Mend,
-    Problem,
-    SceneError,
-    both,
-    message,
-)
+from graphkin.text.errors import NO_WORDS, FirstLine, GraphkinError, Mend, SceneError, both, message
 from graphkin.text.hooks import service
 
 FORMAT = 1
@@ -117,10 +108,8 @@ def read_into(
             if text.strip("\ufeff \t\r\n")
             else message("the file is empty")
         )
-        raise SceneError(
-            Problem(
-                "", found, message("a scene, its first line graphkin = {format}", format=FORMAT)
-            )
+        raise SceneError.at(
+            "", found, message("a scene, its first line graphkin = {format}", format=FORMAT)
         )
     check_version(top, findings)
     scene = assembled(top, name, source, settings, findings, house)
@@ -185,13 +174,8 @@ def check_version(top: Table, findings: Findings) -> None:
             "graphkin = {version}: this scene is written for a newer graphkin",
             version=shown(version),
         )
-        raise SceneError(
-            Problem(
-                "",
-                found,
-                message("graphkin = {version}", version=FORMAT),
-                message("update graphkin"),
-            )
+        raise SceneError.at(
+            "", found, message("graphkin = {version}", version=FORMAT), message("update graphkin")
         )
 
 
@@ -297,7 +281,7 @@ def read_links(
         )
     if len(table.raw) > MOST_LINKS:
         found = message("{count} links", count=len(table.raw))
-        raise SceneError(Problem("links", found, message("at most {most}", most=MOST_LINKS)))
+        raise SceneError.at("links", found, message("at most {most}", most=MOST_LINKS))
     links: dict[str, Link] = {}
     written: dict[str, Table] = {}
     for name, raw in table.raw.items():

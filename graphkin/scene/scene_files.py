@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from graphkin.scene.findings import near_file
 from graphkin.scene.house import HOUSE
 from graphkin.text import paths
-from graphkin.text.errors import NO_WORDS, Problem, SceneError, joined, message
+from graphkin.text.errors import NO_WORDS, SceneError, joined, message
 from graphkin.text.hooks import service
 from graphkin.text.paths import within
 
@@ -37,13 +37,11 @@ def shipped() -> str:
     for folder in SHELVES:
         if paths.is_folder(folder):
             return folder
-    raise SceneError(
-        Problem(
-            "labs",
-            message("the shipped labs are missing"),
-            message("a complete install"),
-            message("install graphkin again"),
-        )
+    raise SceneError.at(
+        "labs",
+        message("the shipped labs are missing"),
+        message("a complete install"),
+        message("install graphkin again"),
     )
 
 
@@ -111,7 +109,7 @@ def find(name: str) -> str:
     if paths.is_file(path) and paths.name_of(path) == HOUSE:
         found = message("holds the conventions of a school, and is no scene")
         hint = message("graphkin check {file} reads it", file=path)
-        raise SceneError(Problem(path, found, message("a scene"), hint))
+        raise SceneError.at(path, found, message("a scene"), hint)
     inside = within(path, SCENE)
     if paths.is_folder(path) and paths.is_file(inside):
         return inside
@@ -121,18 +119,16 @@ def find(name: str) -> str:
         return within(shipped(), name, SCENE)
     if paths.is_folder(path):
         expected = message("a folder with scene.toml, a .toml file or the name of a lab")
-        raise SceneError(Problem(path, message("is a folder without scene.toml"), expected))
+        raise SceneError.at(path, message("is a folder without scene.toml"), expected)
     if name in (more := examples()):
         return str(more[name])
     shipped_names = (*names(), *more) if paths.name_of(path) == path else ()
     near = near_file(name, [*scenes_beside(path), *shipped_names])
     lists = message("graphkin list shows the labs, graphkin list --scenes all")
     hint = message("did you mean {new}?", new=near) if near else NO_WORDS
-    raise SceneError(
-        Problem(
-            name,
-            message("is neither a file nor a shipped lab"),
-            message("a .toml file or one of {names}", names=", ".join(names())),
-            joined(" ", (hint, lists)),
-        )
+    raise SceneError.at(
+        name,
+        message("is neither a file nor a shipped lab"),
+        message("a .toml file or one of {names}", names=", ".join(names())),
+        joined(" ", (hint, lists)),
     )

@@ -22,7 +22,7 @@ from graphkin.scene.model import (
     Triangle,
 )
 from graphkin.scene.quantity import Quantity
-from graphkin.text.errors import Problem, StructureError, message
+from graphkin.text.errors import StructureError, message
 
 Body = dict[str, complex]
 
@@ -35,12 +35,10 @@ def body(scene: Scene, name: str) -> Body:
             placed[placing.point] = located(scene, placing, placed)
         except (ValueError, ZeroDivisionError):
             place = "frame" if name == FRAME else f"links.{name}"
-            raise StructureError(
-                Problem(
-                    f"{place}.{placing.point}",
-                    message("the lengths give no such point"),
-                    message("sides of a triangle, each shorter than the other two together"),
-                )
+            raise StructureError.at(
+                f"{place}.{placing.point}",
+                message("the lengths give no such point"),
+                message("sides of a triangle, each shorter than the other two together"),
             ) from None
     for point in scene.link(name).points:
         placed.setdefault(point, 0j)
@@ -87,7 +85,7 @@ def guide_line(scene: Scene, slide: Slide) -> Line:
     if first == second:
         names = "-".join(slide.along)
         found = message("{names} has no length, so that it has no direction", names=names)
-        raise StructureError(Problem(f"links.{slide.on}", found, message("two points apart")))
+        raise StructureError.at(f"links.{slide.on}", found, message("two points apart"))
     return Line(first, (second - first) / abs(second - first))
 
 

@@ -11,7 +11,7 @@ from msgspec import Struct
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import Rolling, Scene, Slide, Wheel, joined_words, link_words, of_one_size
 from graphkin.structure.turning import guides_under, turns
-from graphkin.text.errors import Problem, StructureError, both, message
+from graphkin.text.errors import StructureError, both, message
 
 __all__ = [
     "Contact",
@@ -249,17 +249,15 @@ def refuse_loose(joints: Sequence[Joint]) -> None:
         if not isinstance(contact, Contact) or contact.track is None or contact.arm is not None:
             continue
         centres = both((contact.track.centre, contact.wheel.centre))
-        raise StructureError(
-            Problem(
-                f"links.{contact.links[0]}.rolls",
-                message("no link carries both centres, {centres}", centres=centres),
-                message(
-                    "an arm: a link with {track}-{wheel} = …",
-                    track=contact.track.centre,
-                    wheel=contact.wheel.centre,
-                ),
-                message("the arm keeps the wheels together; its weight and shape do not matter"),
-            )
+        raise StructureError.at(
+            f"links.{contact.links[0]}.rolls",
+            message("no link carries both centres, {centres}", centres=centres),
+            message(
+                "an arm: a link with {track}-{wheel} = …",
+                track=contact.track.centre,
+                wheel=contact.wheel.centre,
+            ),
+            message("the arm keeps the wheels together; its weight and shape do not matter"),
         )
 
 

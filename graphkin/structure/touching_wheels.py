@@ -83,13 +83,11 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
             wheel=wheel.centre,
         )
         hint = message("the belt is taut only while their distance is kept")
-        raise StructureError(
-            Problem(
-                f"links.{name}.belt",
-                found,
-                message("an arm: a link with {centres} = …", centres=centres),
-                hint,
-            )
+        raise StructureError.at(
+            f"links.{name}.belt",
+            found,
+            message("an arm: a link with {centres} = …", centres=centres),
+            hint,
         )
     points, radii = body(scene, arm), (radius(scene, wheel), radius(scene, track))
     distance = abs(points[wheel.centre] - points[track.centre])
@@ -104,7 +102,7 @@ def belted(scene: Scene, name: str, rolling: Rolling, belt: Belt) -> RollingCont
             "wheels of different radii for these parameters, or of one radius for all"
         )
         hint = message("wheels of one size turn alike; write the same radius for both")
-        raise StructureError(Problem(f"links.{name}.belt", found, expected, hint))
+        raise StructureError.at(f"links.{name}.belt", found, expected, hint)
     return RollingContact(wheel, track, arm)
 
 

@@ -213,6 +213,11 @@ class Train(Struct, frozen=True):
     contacts: tuple[Contact, Contact]
 
     @property
+    def placed_by(self) -> tuple[Joint, ...]:
+        """Its pairs with known links except the pin."""
+        return self.contacts
+
+    @property
     def links(self) -> tuple[str, str]:
         return (self.arm, self.wheel)
 

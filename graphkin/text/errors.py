@@ -239,6 +239,19 @@ class GraphkinError(Exception):
         self.problems = found if len(found) <= MOST else (*found[:MOST], MORE)
         super().__init__("\n".join(str(problem) for problem in self.problems))
 
+    @classmethod
+    def at(
+        cls,
+        place: str,
+        found: Message,
+        expected: Message = NO_WORDS,
+        hint: Hint = NO_WORDS,
+        changes: tuple[Change, ...] = (),
+        about: tuple[About, ...] = (),
+    ) -> Self:
+        """The error of a single problem."""
+        return cls(Problem(place, found, expected, hint, changes, about))
+
 
 class SceneError(GraphkinError):
     """The scene cannot be read, or contradicts itself."""

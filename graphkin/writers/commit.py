@@ -184,9 +184,7 @@ def settle(folder: str | os.PathLike[str]) -> None:
             if not planned(root / UNFINISHED):
                 return  # nothing was moved yet, so the files are complete
             found = message("an earlier run did not end, and {error}", error=reason_of(error))
-            raise FileError(
-                Problem(str(root), found, message("a folder that can be written"))
-            ) from error
+            raise FileError.at(str(root), found, message("a folder that can be written")) from error
 
 
 def put_in_place(folder: Path, targets: Mapping[Path, bytes]) -> None:
@@ -260,9 +258,7 @@ def checked(folder: Path, plan: CommitPlan) -> CommitPlan:
                 message("leads to {folder}", folder=path.parent.resolve()),
                 message("remove the link"),
             )
-            raise FileError(
-                Problem(str(path), found, message("a file in {whole}", whole=whole), hint)
-            )
+            raise FileError.at(str(path), found, message("a file in {whole}", whole=whole), hint)
     return plan
 
 
@@ -276,7 +272,7 @@ def plan_in(folder: Path, name: str) -> CommitPlan:
             message("an earlier run did not end, and its plan is unreadable"),
             message("remove this file"),
         )
-        raise FileError(Problem(str(path), found, hint=hint)) from error
+        raise FileError.at(str(path), found, hint=hint) from error
 
 
 def planned(hidden: Path) -> bool:
@@ -358,7 +354,7 @@ def move(source: Path, target: Path, *, back: bool = False) -> None:
             "cannot be put back: {error}" if back else "cannot be replaced: {error}",
             error=reason_of(error),
         )
-        raise FileError(Problem(str(target), found, expected, hint)) from error
+        raise FileError.at(str(target), found, expected, hint) from error
 
 
 def keep(target: Path, old: Path) -> None:
@@ -393,8 +389,6 @@ def reason_of(error: OSError) -> str:
 def cannot_write(folder: Path, error: OSError) -> PageError:
     """The error for a file or folder that the system does not allow to be written."""
     found = message("cannot be written: {error}", error=reason_of(error))
-    return FileError(
-        Problem(
-            str(folder), found, message("a folder that can be written"), message("name one with -o")
-        )
+    return FileError.at(
+        str(folder), found, message("a folder that can be written"), message("name one with -o")
     )

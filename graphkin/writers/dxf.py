@@ -11,7 +11,7 @@ from typing import Any
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Page, Polyline, Text
 from graphkin.drawing.richtext import advance, capital, runs
 from graphkin.drawing.style import Ink, Style, style_of
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 
 MILLIMETRES = 4
 """The code of millimetres as the DXF drawing unit."""
@@ -28,7 +28,7 @@ def write_dxf(page: Page, ink: Ink = "colour") -> bytes:
         from ezdxf.enums import TextEntityAlignment
     except ImportError:
         hint = message("install it: pip install 'graphkin[cad]'")
-        raise PageError(Problem("dxf", message("needs ezdxf"), hint=hint)) from None
+        raise PageError.at("dxf", message("needs ezdxf"), hint=hint) from None
     page.check()
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True  # the same page gives the same bytes

@@ -106,7 +106,7 @@ def refuse_existing(folder: Path, targets: list[Path], force: bool) -> None:
     """Raise PageError with every existing target."""
     if folder.exists() and not folder.is_dir():
         hint = message("name another folder with -o")
-        raise FileError(Problem(str(folder), message("is a file"), message("a folder"), hint))
+        raise FileError.at(str(folder), message("is a file"), message("a folder"), hint)
     folders = [target for target in targets if target.is_dir()]
     devices = [t for t in targets if t.exists() and not t.is_file() and t not in folders]
     others = (*folders, *devices)
@@ -134,7 +134,7 @@ def write_apart(target: Path, data: bytes, source: str | Path, force: bool = Fal
     if same:
         hint = message("name another file with -o")
         found = message("is the file that is read")
-        raise FileError(Problem(str(target), found, message("another file"), hint))
+        raise FileError.at(str(target), found, message("another file"), hint)
     return write_all(target.parent, {target.name: data}, force)[0]
 
 

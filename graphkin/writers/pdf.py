@@ -31,7 +31,7 @@ from graphkin.drawing.marks import (
 )
 from graphkin.drawing.richtext import FILES, TextRun, font_file, spaced_runs
 from graphkin.drawing.style import Ink, Style, style_of
-from graphkin.text.errors import NO_WORDS, PageError, Problem, message
+from graphkin.text.errors import NO_WORDS, PageError, message
 
 MM = 72 / 25.4  # points to the millimetre
 rl_config.useA85 = 0  # compressed streams need no ASCII encoding: smaller and faster
@@ -198,11 +198,11 @@ def put_picture(canvas: Canvas, picture: Picture, top: float) -> None:
     except ImportError:
         hint = message("pip install 'graphkin[logo]', or save the logo as PNG")
         found = message("an SVG picture in a PDF needs svglib")
-        raise PageError(Problem("header.logo", found, NO_WORDS, hint)) from None
+        raise PageError.at("header.logo", found, NO_WORDS, hint) from None
     drawn = svg2rlg(BytesIO(picture.data))
     if drawn is None:
         found, hint = message("is no picture that can be drawn"), message("save it again as PNG")
-        raise PageError(Problem("header.logo", found, NO_WORDS, hint))
+        raise PageError.at("header.logo", found, NO_WORDS, hint)
     drawn.scale(width / drawn.width, height / drawn.height)
     drawn.drawOn(canvas, x, y)
 

@@ -16,7 +16,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 from graphkin.writers.commit import PATIENCE, locked
 
 MOST = 1 << 26
@@ -71,13 +71,11 @@ class SharedLines(Generic[L]):
         """Read what others have appended; whether there was anything."""
         size = self.path.stat().st_size if self.path.exists() else 0
         if size > MOST:
-            raise PageError(
-                Problem(
-                    str(self.path),
-                    message("{size} bytes", size=size),
-                    message("at most {most} bytes", most=MOST),
-                    message("move the file away; the decisions in it must then be made again"),
-                )
+            raise PageError.at(
+                str(self.path),
+                message("{size} bytes", size=size),
+                message("at most {most} bytes", most=MOST),
+                message("move the file away; the decisions in it must then be made again"),
             )
         before = self.count
         if size < self.whole:  # somebody put another file in its place

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from math import isinf
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 from graphkin.text.tables import Cell
 
 MADE = b"2000-01-01T00:00:00Z"
@@ -35,7 +35,7 @@ def workbook(tables: Mapping[str, Sequence[Sequence[Cell]]]) -> bytes:
         from openpyxl.utils import get_column_letter
     except ImportError:
         hint = message("install it: pip install 'graphkin[class]'")
-        raise PageError(Problem("xlsx", message("needs openpyxl"), hint=hint)) from None
+        raise PageError.at("xlsx", message("needs openpyxl"), hint=hint) from None
     book = Workbook()
     book.remove(book.active)
     for name, rows in tables.items():

@@ -298,7 +298,7 @@ def unchanged(name: str, part: int) -> object:
 
 def own_faces(kind: type[Construction]) -> set[str]:
     """The faces that a class has of its own: methods, and what it declares."""
-    return set(vars(kind)) - (set(kind.__annotations__) - DECLARED)
+    return set(vars(kind)) - (set(kind.__annotations__) - DECLARED) - {"gives"}
 
 
 TOLD: Counter[tuple[str, int]] = Counter()

@@ -9,7 +9,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, EndsComponent, GivenVector
 from graphkin.construction.core.naming import has_no_length, letter_at, rate_symbol
 from graphkin.construction.core.pen import Pen, about, component_arrow, letter
-from graphkin.construction.core.program import Plane
+from graphkin.construction.core.program import OwnStep, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
@@ -46,7 +46,6 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
     pin's image.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("end", "image")
     reasons: ClassVar[Mapping[str, str]] = {"end": "why.normal", "image": "why.driven_tangential"}
     pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("end", "image"), ByHand.LAID_OFF)
     imaged: ClassVar[frozenset[str]] = frozenset({"end", "image"})
@@ -54,8 +53,8 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
     start: int
     omega: int
     epsilon: int | None
-    end: int
-    image: int | None
+    end: OwnStep
+    image: OwnStep | None
 
     @property
     def is_steady(self) -> bool:

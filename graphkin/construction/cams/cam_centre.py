@@ -13,7 +13,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import drawn_amount, nearest_side
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import OwnStep, Part, Plane, Step
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.core.vocabulary import coordinate as along_guide
 from graphkin.construction.guides.guide_line import axis_by_guide
@@ -250,7 +250,6 @@ def lever_end(pin: Point, way: Point, arm: Real) -> Point:
 class SwungLever(Construction, frozen=True, kw_only=True):
     """The ``tip``, called ``name``, of a lever ``link`` that a cam has turned about its ``pin``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.cam_lever"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"tip": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("pin", "name")
@@ -259,7 +258,7 @@ class SwungLever(Construction, frozen=True, kw_only=True):
     link: str
     pin: str
     name: str
-    tip: int
+    tip: OwnStep
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence that places the tip by the angle of its bar in the plane."""
@@ -275,7 +274,6 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     The distance to it is measured from the cam's pivot, called ``start``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.cam_centre"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
     has_angle: ClassVar[bool] = False
@@ -289,7 +287,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
     lift: int
     rate: int
     bend: int
-    point: int
+    point: OwnStep
 
     def in_line(self, steps: Sequence[Step], *, nearly: bool) -> Message:
         """The words for a pitch curve without curvature."""

@@ -14,7 +14,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.palette import PERPENDICULAR, Move, point_and_arrow
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.vocabulary import Action, action, meet
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
@@ -43,9 +43,7 @@ def meet_anywhere(m: Line, n: Line) -> Ratio:
 class LineToCentre(Construction, frozen=True, kw_only=True):
     """A line on which a centre lies."""
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
-
-    line: int
+    line: OwnStep
 
     @property
     def name(self) -> str:
@@ -106,15 +104,14 @@ class Centre(Construction, frozen=True, kw_only=True):
     is the place found by hand, where its ``ways`` meet.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("crossing", "found")
     key: ClassVar[str]
     called: ClassVar[str] = "the centre of link"
 
     name: str
     link: str = ""
     point: str
-    found: int
-    crossing: int | None = None
+    found: OwnStep
+    crossing: OwnStep | None = None
     ways: tuple[LineToCentre, ...] = ()
 
     def title(self, role: str) -> str:

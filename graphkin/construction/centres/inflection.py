@@ -29,7 +29,7 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import symbol
@@ -98,13 +98,12 @@ def inflection_circle(p: Point, image_p: Point, omega: Real, pole: Ratio) -> Cir
 class InflectionPoint(LineToCentre, frozen=True, kw_only=True):
     """A point of the circle, ``found`` on the ray at ``ray.point``, and the perpendicular there."""
 
-    gives: ClassVar[tuple[str, ...]] = ("found", "line")
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.inflection"}
 
     letter: str
     link: str
     ray: VelocityNormal
-    found: int
+    found: OwnStep
 
     @property
     def name(self) -> str:
@@ -150,15 +149,14 @@ class InflectionCircle(Centre, frozen=True, kw_only=True):
     fixed pin.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("centre", "crossing", "found", "circle", "opposite")
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.inflection_circle"}
     key: ClassVar[str] = "inflection-pole"
     called: ClassVar[str] = "the inflection pole of link"
     look: ClassVar[str] = "inflection"
 
-    circle: int
-    opposite: int
-    centre: int | None = None
+    circle: OwnStep
+    opposite: OwnStep
+    centre: OwnStep | None = None
     centre_letter: str
     pinned: bool
 

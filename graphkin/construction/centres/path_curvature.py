@@ -31,7 +31,7 @@ from graphkin.construction.core.palette import (
     Picks,
 )
 from graphkin.construction.core.pen import Pen, letter
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import (
     Relation,
     answer,
@@ -128,13 +128,11 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
     The foot is the end of the component of the acceleration on the ``normal`` to the path.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("tip", "foot", "line")
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ at {tip}"}
 
     normal: VelocityNormal
-    tip: int
-    foot: int
-    line: int
+    tip: OwnStep
+    foot: OwnStep
 
     def symbols(self) -> Mapping[str, str]:
         """The point, its velocity and its acceleration."""
@@ -206,7 +204,6 @@ class PathCentre(Centre, frozen=True, kw_only=True):
     perpendicular at the tip of the velocity.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("crossing", "found", "circle")
     reasons: ClassVar[Mapping[str, str]] = {"found": "why.curvature"}
     slips: ClassVar[Mapping[str, Slip]] = {"curvature_reversed": Slip(-1, "moderate")}
     key: ClassVar[str] = "curvature-centre"
@@ -218,7 +215,7 @@ class PathCentre(Centre, frozen=True, kw_only=True):
     image: int
     second_pole: int
     second_image: int
-    circle: int
+    circle: OwnStep
 
     def title(self, role: str) -> str:
         """The name of the centre in a report."""

@@ -27,7 +27,7 @@ from graphkin.structure.groups import (
 )
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, PinLine, Sliding, contacts
-from graphkin.text.errors import NO_WORDS, Problem, StructureError, joined, message
+from graphkin.text.errors import NO_WORDS, StructureError, joined, message
 
 
 class Base(Struct, frozen=True):
@@ -243,7 +243,7 @@ def no_track(scene: Scene, contact: Contact) -> StructureError:
     wheel, track = contact.links
     found = message("is a straight track that only a wheel and a pin hold")
     hint = NO_WORDS if contact.rolling.keeper else keeper_asked(scene.links, wheel, track)
-    return StructureError(Problem(f"links.{track}", found, HELD, hint))
+    return StructureError.at(f"links.{track}", found, HELD, hint)
 
 
 def geared_base(scene: Scene, group: Geared) -> Base:
@@ -300,7 +300,7 @@ def no_construction(group: Group) -> StructureError:
             "is a driver missing, or does it drive a link that cannot be reached by itself?"
         )
     place, about = "links." + ", ".join(group.links), (("links", group.links[0]),)
-    return StructureError(Problem(place, found, expected, hint, about=about))
+    return StructureError.at(place, found, expected, hint, about=about)
 
 
 HELD = message("a track that slides, is driven, or belongs to the frame")

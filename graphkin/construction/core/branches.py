@@ -212,18 +212,16 @@ def side_of(scene: Scene, dyad: Dyad) -> int:
         return -branch.side
     line = "-".join(ends)
     sides = f'"left of {line}"', f'"right of {line}"'
-    raise StructureError(
-        Problem(
-            f"branches.{dyad.inner.point}",
-            MISSING if branch is None else message("does not name the two known pins of its dyad"),
-            either(sides),
-            message(
-                "{point} can lie on either side of the line {line}; the scene says which",
-                point=dyad.inner.point,
-                line=line,
-            ),
-            tuple(map(Written, sides)),
-        )
+    raise StructureError.at(
+        f"branches.{dyad.inner.point}",
+        MISSING if branch is None else message("does not name the two known pins of its dyad"),
+        either(sides),
+        message(
+            "{point} can lie on either side of the line {line}; the scene says which",
+            point=dyad.inner.point,
+            line=line,
+        ),
+        tuple(map(Written, sides)),
     )
 
 
@@ -257,16 +255,14 @@ def way_of(scene: Scene, dyad: Dyad) -> int:
         hint = message(
             "the bar can point either way; forward is the larger coordinate along the guide"
         )
-    raise StructureError(
-        Problem(
-            f"branches.{key}",
-            MISSING
-            if branch is None
-            else message('"{branch}" for a link that {leading}', branch=branch, leading=LEADING),
-            either(WAYS),
-            hint,
-            tuple(map(Written, WAYS)),
-        )
+    raise StructureError.at(
+        f"branches.{key}",
+        MISSING
+        if branch is None
+        else message('"{branch}" for a link that {leading}', branch=branch, leading=LEADING),
+        either(WAYS),
+        hint,
+        tuple(map(Written, WAYS)),
     )
 
 
@@ -302,18 +298,16 @@ def closure_of(scene: Scene, group: Higher) -> int:
             "they close together in several ways; graphkin check lists them; if two of them "
             "should close by themselves, a guide or a pin is on the wrong link"
         )
-    raise StructureError(
-        Problem(
-            f"branches.{link}",
-            found,
-            message(
-                '{link} = "closure 1", or another number, for the links {links}',
-                link=link,
-                links=", ".join(group.links),
-            ),
-            hint,
-            (Written('"closure 1"'),),
-        )
+    raise StructureError.at(
+        f"branches.{link}",
+        found,
+        message(
+            '{link} = "closure 1", or another number, for the links {links}',
+            link=link,
+            links=", ".join(group.links),
+        ),
+        hint,
+        (Written('"closure 1"'),),
     )
 
 

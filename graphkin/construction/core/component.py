@@ -21,7 +21,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import TINY, drawn_between, is_short, letter_at, plan_amount
 from graphkin.construction.core.palette import PaletteAction, Picks
-from graphkin.construction.core.program import Effect, Part, Plane, Program, sign_of
+from graphkin.construction.core.program import Effect, OwnStep, Part, Plane, Program, sign_of
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import smaller
@@ -85,8 +85,8 @@ class Component(Construction, frozen=True, kw_only=True):
     turned: ClassVar[str] = ""
 
     index: str
-    vector: int | None = None
-    read: int | None = None
+    vector: OwnStep | None = None
+    read: OwnStep | None = None
 
     @property
     def name(self) -> str:
@@ -262,12 +262,11 @@ class Measured(Struct, frozen=True):
 class LaidOff(EndsComponent, frozen=True, kw_only=True):
     """A component laid off in the plan from a known point, or back from its own tip."""
 
-    gives: ClassVar[tuple[str, ...]] = ("corner",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"corner": ByHand.LAID_OFF}
 
     component: Component
     start: int
-    corner: int
+    corner: OwnStep
     back: bool = False
 
     def reason(self, drawing: Drawing, role: str) -> str:

@@ -13,7 +13,7 @@ from msgspec.structs import asdict
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.palette import KnownError, Picks
-from graphkin.construction.core.program import Program, Roles, Step
+from graphkin.construction.core.program import OwnStep, Program, Roles, Step
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import Action
 from graphkin.numbers.plane import Ratio
@@ -276,10 +276,9 @@ class JoinsPoints(Construction, frozen=True):
 class PlanPole(Construction, frozen=True, kw_only=True):
     """The freely chosen ``pole`` of a plan: the image of everything at rest."""
 
-    gives: ClassVar[tuple[str, ...]] = ("pole",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"pole": ByHand.KNOWN}
 
-    pole: int
+    pole: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the pole, larger than an image."""

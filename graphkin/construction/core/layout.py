@@ -18,7 +18,7 @@ from graphkin.drawing.field import ABOVE, LEAST_FIELD, MARGIN, Field, Rect, Shee
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
 from graphkin.numbers.plane import Circle, Line, Ratio
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 
 BEYOND = 7.0
 """How far a construction line is drawn beyond the last point on it, in mm."""
@@ -117,16 +117,13 @@ def refuse_wide(paper: SheetPaper, mechanism: float, plan: float) -> None:
     """Raise PageError where a sheet is too narrow for both drawings; widths in mm."""
     spare = paper.room_beside(mechanism) - plan
     if spare < -1e-6:
-        raise PageError(
-            Problem(
-                "sheet",
-                message(
-                    "does not fit: the drawings are {spare:.0f} mm wider than the sheet",
-                    spare=-spare,
-                ),
-                message("a larger kL"),
-                message("leave [sheet] scale out, or give a larger number"),
-            )
+        raise PageError.at(
+            "sheet",
+            message(
+                "does not fit: the drawings are {spare:.0f} mm wider than the sheet", spare=-spare
+            ),
+            message("a larger kL"),
+            message("leave [sheet] scale out, or give a larger number"),
         )
 
 

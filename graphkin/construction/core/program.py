@@ -107,16 +107,27 @@ class Given(Struct, frozen=True):
                 return first.si(values, kind)
 
 
+OwnStep = int
+"""The number of a step that a construction draws itself, in the field of its role."""
+
+
 class Roles(Struct, frozen=True):
     """The steps of one construction by their roles: a record of step numbers.
 
-    ``gives`` are the roles of the steps that it draws itself; a role that it does not use is None.
-    The other numbers are the steps of its inputs. ``corners`` are the roles of points on the
-    mechanism that have no name but need room.
+    ``gives`` are the roles of the steps that it draws itself: its fields of the type OwnStep. A
+    role that it does not use is None. The other numbers are the steps of its inputs. ``corners``
+    are the roles of points on the mechanism that have no name but need room.
     """
 
     gives: ClassVar[tuple[str, ...]] = ()
     corners: ClassVar[frozenset[str]] = frozenset()
+
+    def __init_subclass__(cls, **settings: Any) -> None:
+        """Gather the roles of the steps that a kind draws itself."""
+        super().__init_subclass__(**settings)
+        own = [role for role, kind in cls.__annotations__.items() if kind.startswith("OwnStep")]
+        if own:
+            cls.gives = (*cls.gives, *own)
 
     def given(self) -> Iterator[tuple[str, int]]:
         """The role and the number of each of its own steps."""
@@ -192,13 +203,11 @@ class Drive(Roles, frozen=True):
     ``angle`` also holds the angle in radians; None where no wheel needs it.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("position", "speed", "acceleration", "angle")
-
     driver: int
-    position: int
-    speed: int
-    acceleration: int
-    angle: int | None = None
+    position: OwnStep
+    speed: OwnStep
+    acceleration: OwnStep
+    angle: OwnStep | None = None
 
 
 class PairForce(NamedTuple):
@@ -333,8 +342,6 @@ class PlanVector(Roles, frozen=True):
     ``back``. ``ends`` are the letters of both ends where no steps have them.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("arrow",)
-
     letter: str
     index: str
     q: str = ""
@@ -343,7 +350,7 @@ class PlanVector(Roles, frozen=True):
     foot: str = ""
     back: bool = False
     ends: tuple[str, str] = ("", "")
-    arrow: int | None = None
+    arrow: OwnStep | None = None
 
     @property
     def symbol(self) -> str:

@@ -17,6 +17,7 @@ from graphkin.construction.core.naming import (
     vector_of,
 )
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import OwnStep
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
@@ -48,7 +49,6 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
     ``speed`` is the speed or acceleration along the guide.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.driven"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
     lines_before: ClassVar[tuple[str, ...]] = ("start",)
@@ -56,7 +56,7 @@ class DrivenSlide(AlongGuide, LaidOffByRate, frozen=True, kw_only=True):
 
     point: str
     speed: int
-    image: int
+    image: OwnStep
 
     def tried_rate(self, role: str) -> int:
         """The speed or acceleration."""

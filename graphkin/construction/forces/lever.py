@@ -15,7 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen, letter
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.loads import LENGTH, LinkForce, newtons, on_lever, signed
@@ -95,9 +95,7 @@ def power_of(rest: tuple[Any, ...]) -> Real:
 class LeverPole(Construction, frozen=True, kw_only=True):
     """The pole of the lever."""
 
-    gives: ClassVar[tuple[str, ...]] = ("pole",)
-
-    pole: int
+    pole: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the pole."""
@@ -107,10 +105,8 @@ class LeverPole(Construction, frozen=True, kw_only=True):
 class LeverImage(Construction, frozen=True, kw_only=True):
     """The ``turned`` image of a point, named as in the velocity plan; its ray from the pole."""
 
-    gives: ClassVar[tuple[str, ...]] = ("turned",)
-
     image: int
-    turned: int
+    turned: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the image with its ray."""
@@ -122,11 +118,9 @@ class LeverImage(Construction, frozen=True, kw_only=True):
 class LeverMoved(Construction, frozen=True, kw_only=True):
     """The ``turned`` image of the place of a moved inertia force, near that of its centre."""
 
-    gives: ClassVar[tuple[str, ...]] = ("turned",)
-
     name: str
     near: int
-    turned: int
+    turned: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the short side from the image of the centre of mass."""
@@ -136,15 +130,13 @@ class LeverMoved(Construction, frozen=True, kw_only=True):
 class LeverForce(Construction, frozen=True, kw_only=True):
     """A force at the image of its point on the lever, and its arm about the pole."""
 
-    gives: ClassVar[tuple[str, ...]] = ("foot",)
-
     name: str
     look: str
     number: str
     pole: int
     turned: int
     force: int
-    foot: int
+    foot: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the force without scale, and its arm with its dimension."""
@@ -166,7 +158,6 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
     A crank with no point but its pivot has no ``force``; its ``omega`` gives the moment.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("force", "moment")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_lever"}
 
     name: str
@@ -178,8 +169,8 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
     forces: tuple[tuple[str, str, int, int], ...]
     couples: tuple[tuple[str, str, int], ...]
     other: int
-    force: int | None = None
-    moment: int | None = None
+    force: OwnStep | None = None
+    moment: OwnStep | None = None
     omega: int | None = None
     link: str = ""
 

@@ -17,7 +17,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.forces.moments import (
@@ -57,7 +57,6 @@ class LineForce(ForceByMoments, frozen=True, kw_only=True):
     that the line is the common normal of a cam and its follower.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("foot", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_line"}
     none: ClassVar[str] = "step.force-line-none"
 
@@ -66,7 +65,7 @@ class LineForce(ForceByMoments, frozen=True, kw_only=True):
     way: SideDirection
     cam: bool
     through: int
-    foot: int
+    foot: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the line as far as the foot, and the arm with its dimension."""
@@ -94,12 +93,10 @@ class LineForce(ForceByMoments, frozen=True, kw_only=True):
 class AssurPoint(Construction, frozen=True, kw_only=True):
     """The point of a group of class III in which the lines of two of its arms meet."""
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
-
     one: int
     other: int
     starts: tuple[int, int]
-    point: int
+    point: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw both lines as far as the point."""
@@ -190,7 +187,6 @@ class SlidePressure(ForceByMoments, frozen=True, kw_only=True):
     ``moments`` are those of the link at far about its pin, ``others`` those of the link at near.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("foot", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_pressure"}
     none: ClassVar[str] = "step.force-pressure-none"
 
@@ -198,7 +194,7 @@ class SlidePressure(ForceByMoments, frozen=True, kw_only=True):
     link: str
     block: str
     others: Moments
-    foot: int
+    foot: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the arm of the force about the far pin."""

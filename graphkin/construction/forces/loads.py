@@ -17,7 +17,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Slip, constructions
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Target
+from graphkin.construction.core.program import OwnStep, Part, Plane, Target
 from graphkin.construction.core.quantities import (
     EPSILON,
     FORCES,
@@ -225,13 +225,11 @@ class LinkForce(NamedTuple):
 class AppliedForce(Construction, frozen=True, kw_only=True):
     """A ``force`` at its ``place`` on the mechanism, drawn as an arrow without scale."""
 
-    gives: ClassVar[tuple[str, ...]] = ("where",)
-
     name: str
     look: str
     place: int
     force: int
-    where: int
+    where: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the arrow from the place; a note says that the place is beyond the field."""
@@ -248,11 +246,10 @@ class AppliedForce(Construction, frozen=True, kw_only=True):
 class PassedReaction(Construction, frozen=True, kw_only=True):
     """The opposite of a reaction, which acts on the other link of the pair."""
 
-    gives: ClassVar[tuple[str, ...]] = ("force",)
     slips: ClassVar[Mapping[str, Slip]] = {"reaction_reversed": Slip(-1, "moderate", ("force",))}
 
     name: str
-    force: int
+    force: OwnStep
 
 
 def moment_slips(role: str) -> Mapping[str, Slip]:
@@ -269,7 +266,6 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
     ``moment`` and ``place`` are None for a link that does not turn, or turns at a constant rate.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("force", "moment", "place")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_inertia"}
     slips: ClassVar[Mapping[str, Slip]] = {
         "inertia_along": Slip(-1, "moderate", ("force",)),
@@ -285,11 +281,11 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
     image: int
     pole: int
     centre: int
-    force: int
+    force: OwnStep
     inertia: int | None = None
     epsilon: int | None = None
-    moment: int | None = None
-    place: int | None = None
+    moment: OwnStep | None = None
+    place: OwnStep | None = None
 
     def size(self, drawing: Drawing) -> float:
         """The magnitude of the force in N; zero for rounding."""
@@ -359,7 +355,6 @@ class InertiaForce(Construction, frozen=True, kw_only=True):
 class InertiaMoment(Construction, frozen=True, kw_only=True):
     """The inertia moment of a ``link`` that acts as a couple, in N·m."""
 
-    gives: ClassVar[tuple[str, ...]] = ("couple",)
     reasons: ClassVar[Mapping[str, str]] = {"couple": "why.force_inertia"}
     slips: ClassVar[Mapping[str, Slip]] = {
         "inertia_missing": Slip(0, "serious", ("couple",), inertia_moment),
@@ -369,7 +364,7 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
     link: str
     inertia: int
     epsilon: int
-    couple: int
+    couple: OwnStep
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """Its magnitude and its sense; empty where a moved force replaces it."""
@@ -422,7 +417,6 @@ def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) 
 class Weight(Construction, frozen=True, kw_only=True):
     """The weight of a ``link`` with its centre of mass in ``point``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("force",)
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_weight"}
     slips: ClassVar[Mapping[str, Slip]] = {
         "weight_missing": Slip(0, "serious", ("force",)),
@@ -436,7 +430,7 @@ class Weight(Construction, frozen=True, kw_only=True):
     name: str
     mass: int
     gravity: int
-    force: int
+    force: OwnStep
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The sentence for all weights together, at the first of them."""
@@ -467,13 +461,11 @@ class Weight(Construction, frozen=True, kw_only=True):
 class ByTable(Construction, frozen=True, kw_only=True):
     """A given force or moment ``name`` from a table of a driver's coordinate."""
 
-    gives: ClassVar[tuple[str, ...]] = ("number",)
-
     name: str
     unit: str
     driver: int
     coordinate: int
-    number: int
+    number: OwnStep
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The number, and the place in the table."""
@@ -490,14 +482,12 @@ class ByTable(Construction, frozen=True, kw_only=True):
 class ForceAlong(Construction, frozen=True, kw_only=True):
     """A given force ``name`` along (``sense`` +1) or against the velocity of its point."""
 
-    gives: ClassVar[tuple[str, ...]] = ("force",)
-
     name: str
     point: str
     sense: int
     pole: int
     image: int
-    force: int
+    force: OwnStep
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """Its size and its sense."""
@@ -512,7 +502,6 @@ class ForceAlong(Construction, frozen=True, kw_only=True):
 class SpringForce(Construction, frozen=True, kw_only=True):
     """The force of a spring on the link at its first end, towards the other end or away from it."""
 
-    gives: ClassVar[tuple[str, ...]] = ("force", "coil")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_spring"}
 
     name: str
@@ -521,8 +510,8 @@ class SpringForce(Construction, frozen=True, kw_only=True):
     other: int
     stiffness: int
     free: int
-    force: int
-    coil: int
+    force: OwnStep
+    coil: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the spring as a zigzag between its ends."""

@@ -20,7 +20,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Slip
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
@@ -144,7 +144,6 @@ def about_outer(kind: TangentialPart, force: Any, get: Callable[[int], Any]) -> 
 class ForceArm(Construction, frozen=True, kw_only=True):
     """The arm of a force ``name`` about a point: its ``foot``, and its symbol ``number``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("foot",)
     slips: ClassVar[Mapping[str, Slip]] = {
         "arm_slanted": Slip(1, "moderate", ("foot",), taken=slanted)
     }
@@ -154,7 +153,7 @@ class ForceArm(Construction, frozen=True, kw_only=True):
     about: int
     place: int
     force: int
-    foot: int
+    foot: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the arm with its right angle, and the line of action as far as the foot."""
@@ -287,7 +286,7 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
     name: str
     moments: Moments
     others: Moments | None = None
-    force: int
+    force: OwnStep
 
     @property
     def every(self) -> list[Moments]:
@@ -353,7 +352,6 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
 class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
     """The part ``name`` of the reaction at a ``link``'s outer pin, across the bar to the inner."""
 
-    gives: ClassVar[tuple[str, ...]] = ("force",)
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tangential"}
     slips: ClassVar[Mapping[str, Slip]] = {
         "tangential_reversed": Slip(-1, "moderate", ("force",)),
@@ -388,7 +386,6 @@ class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
 class PlaceOnGuide(Construction, frozen=True, kw_only=True):
     """The place of the reaction ``name`` of a guide, from the moments of its ``link``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("place",)
     reasons: ClassVar[Mapping[str, str]] = {"place": "why.force_place"}
 
     name: str
@@ -396,7 +393,7 @@ class PlaceOnGuide(Construction, frozen=True, kw_only=True):
     link: str
     moments: Moments
     reaction: int
-    place: int
+    place: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the distance from the pin, with its dimension."""
@@ -530,13 +527,12 @@ def on_guide(
 class BalancingMoment(Construction, frozen=True, kw_only=True):
     """The balancing moment ``name`` of a driven ``link``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("moment",)
     reasons: ClassVar[Mapping[str, str]] = {"moment": "why.force_balance"}
 
     name: str
     link: str
     moments: Moments
-    moment: int
+    moment: OwnStep
 
     def size(self, drawing: Drawing) -> float:
         """The moment in N·m, counter-clockwise positive; zero for rounding."""

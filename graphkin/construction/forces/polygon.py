@@ -15,7 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction, Slip
 from graphkin.construction.core.naming import TINY, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import PAIR_REACTION, in_mm
 from graphkin.construction.core.relation import Relation, as_read
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
@@ -90,11 +90,9 @@ class InPolygon(Construction, frozen=True, kw_only=True):
 class PolygonStart(InPolygon, frozen=True, kw_only=True):
     """The start of the polygon of some ``links``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("start",)
-
     links: tuple[str, ...]
     kind: str
-    start: int
+    start: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the start as a circle with its number."""
@@ -104,14 +102,13 @@ class PolygonStart(InPolygon, frozen=True, kw_only=True):
 class PolygonSide(InPolygon, frozen=True, kw_only=True):
     """A known force laid off from the last point of a polygon."""
 
-    gives: ClassVar[tuple[str, ...]] = ("corner",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"corner": ByHand.LAID_OFF}
 
     name: str
     look: str
     start: int
     force: int
-    corner: int
+    corner: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the force, unless it is zero."""
@@ -133,7 +130,6 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     the styles of both closing sides.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("one", "other", "corner")
     reasons: ClassVar[Mapping[str, str]] = {"corner": "why.force_polygon"}
     lines: ClassVar[Mapping[str, str]] = {"one": "the side {first}", "other": "the side {last}"}
     titled: ClassVar[str] = "the polygon of {kind}"
@@ -156,9 +152,9 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     sides: tuple[KnownSide, ...]
     start: int
     end: int
-    one: int
-    other: int
-    corner: int
+    one: OwnStep
+    other: OwnStep
+    corner: OwnStep
     bars: tuple[str, str] = ("", "")
     cam: bool = False
 
@@ -216,15 +212,14 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     ``first`` end, by default the first of the polygon.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("force", "arrow")
     reasons: ClassVar[Mapping[str, str]] = {"arrow": "why.force_closing"}
 
     name: str
     links: tuple[str, ...]
     tail: int
     tip: int
-    force: int
-    arrow: int
+    force: OwnStep
+    arrow: OwnStep
     whole: tuple[str, ...] = ()
     sides: tuple[KnownSide, ...] = ()
     closes: bool = False

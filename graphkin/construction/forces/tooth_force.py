@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation, figure
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.moments import ForceByMoments, Moments, arm, moment_sum
@@ -83,7 +83,6 @@ class RackForce(InPolygon, frozen=True, kw_only=True):
     ``pitch`` is the point of contact, ``sides`` are the loads of the rack.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("pitch", "force", "corner")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_closing"}
 
     name: str
@@ -93,9 +92,9 @@ class RackForce(InPolygon, frozen=True, kw_only=True):
     sides: tuple[KnownSide, ...]
     centre: int
     start: int
-    pitch: int
-    force: int
-    corner: int
+    pitch: OwnStep
+    force: OwnStep
+    corner: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the radius of the pitch point, and the force in the polygon."""
@@ -137,13 +136,12 @@ class ToothForce(ForceByMoments, frozen=True, kw_only=True):
     ``across`` names both contacts. ``angle`` is the pressure angle in degrees, 0 for plain wheels.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("pitch", "force")
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_tooth"}
     none: ClassVar[str] = "step.force-tooth-none"
 
     link: str
     angle: int
-    pitch: int
+    pitch: OwnStep
     across: tuple[str, str] = ("", "")
 
     def marks(self, canvas: Canvas, role: str) -> None:

@@ -12,7 +12,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import drawn_amount, nearest_side, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.program import OwnStep, Step
 from graphkin.construction.core.vocabulary import action, along_bar, meet, ray
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real, at
@@ -124,13 +124,12 @@ def shifted(line: Line, offset: Real) -> Line:
 class GuideLine(Construction, frozen=True, kw_only=True):
     """The ``line`` of the guide of a ``block``, through the point ``start`` if it has a name."""
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     between: ClassVar[tuple[str, ...]] = ("start",)
     guided: ClassVar[str] = "block"
 
     block: str
     start: str
-    line: int
+    line: OwnStep
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """The line by the point that it passes through, or by its block."""
@@ -174,12 +173,11 @@ class GuideAlongBar(GuideLine, frozen=True, kw_only=True):
 class GuideThroughBlock(Construction, frozen=True, kw_only=True):
     """The ``line`` of a guide through its ``block``, which already has its ``axis``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     guided: ClassVar[str] = "block"
 
     block: str
     axis: int
-    line: int
+    line: OwnStep
 
     def path_name(self, drawing: Drawing) -> str:
         """The words for the guide of its block."""
@@ -197,13 +195,12 @@ class GuideThroughBlock(Construction, frozen=True, kw_only=True):
 class ShiftedGuide(Construction, frozen=True, kw_only=True):
     """The parallel ``line`` to the line ``guide`` of a ``block``, on which a point moves."""
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     lines_before: ClassVar[tuple[str, ...]] = ("guide",)
     guided: ClassVar[str] = "block"
 
     block: str
     guide: int
-    line: int
+    line: OwnStep
 
     def path_name(self, drawing: Drawing) -> str:
         """The words for the parallel to the guide of its block."""
@@ -222,14 +219,13 @@ class ShiftedGuide(Construction, frozen=True, kw_only=True):
 class GuidesMeet(Construction, frozen=True, kw_only=True):
     """The ``point`` called ``name``, where the lines ``one`` and ``other`` of guides meet."""
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.guides"}
     lines_before: ClassVar[tuple[str, ...]] = ("one", "other")
 
     name: str
     one: int
     other: int
-    point: int
+    point: OwnStep
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the crossing of the two lines."""

@@ -15,7 +15,7 @@ from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import angle_symbol, drawn_amount, nearest_side, place
 from graphkin.construction.core.palette import MARK_OFF, Move, one_and_length
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Drive, Part, Plane
+from graphkin.construction.core.program import Drive, OwnStep, Part, Plane
 from graphkin.construction.core.vocabulary import across, action, difference
 from graphkin.construction.guides.guide_line import (
     axis_along,
@@ -45,21 +45,19 @@ from graphkin.structure.turning import guide_on
 class CarriedDirection(Construction, frozen=True, kw_only=True):
     """A direction given in a ``link``'s own axes, in the plane."""
 
-    gives: ClassVar[tuple[str, ...]] = ("turn",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
 
     link: str
-    turn: int
+    turn: OwnStep
 
 
 class CarriedPlace(Construction, frozen=True, kw_only=True):
     """A place on a ``link``, other than one of its points, in the plane."""
 
-    gives: ClassVar[tuple[str, ...]] = ("place",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"place": ByHand.LAID_OFF}
 
     link: str
-    place: int
+    place: OwnStep
 
 
 def axis(pen: Pen, link: str) -> int:
@@ -329,7 +327,6 @@ def set_back(line: Line, coordinate: Real, here: Point, through: Point, axis: Po
 class SetByCoordinate(Construction, frozen=True, kw_only=True):
     """The ``point`` of a ``link`` at the coordinate ``where`` of its ``path`` on a link ``on``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.set_at"}
     lines_before: ClassVar[tuple[str, ...]] = ("path",)
 
@@ -337,7 +334,7 @@ class SetByCoordinate(Construction, frozen=True, kw_only=True):
     on: str
     path: int
     where: int
-    point: int
+    point: OwnStep
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the point by its coordinate.

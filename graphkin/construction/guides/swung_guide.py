@@ -17,7 +17,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, LaidLength, PlacesLink
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import OwnStep, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.guides.guides import (
@@ -117,7 +117,6 @@ class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
     for a ``pin`` ahead of the pivot along the guide and -1 for one behind it; otherwise it is 0.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("turn", "line")
     pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
     between: ClassVar[tuple[str, ...]] = ("pivot", "pin")
@@ -127,8 +126,8 @@ class SwungGuide(Determined, PlacesLink, frozen=True, kw_only=True):
     block: str
     pivot: str
     pin: str
-    turn: int
-    line: int
+    turn: OwnStep
+    line: OwnStep
     ahead: int = 0
 
     def guides(self, block: str, on: str) -> bool:
@@ -201,7 +200,6 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     circle on both pins. They meet in the ``foot`` of the ``tangent``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("small", "large", "foot", "tangent", "turn", "line")
     pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("tangent", "turn"), ByHand.TURNED)
     corners: ClassVar[frozenset[str]] = frozenset({"foot"})
     lines: ClassVar[Mapping[str, str]] = {
@@ -211,10 +209,10 @@ class TangentGuide(SwungGuide, frozen=True, kw_only=True):
     laid_at: ClassVar[str] = "large"
 
     height: int
-    small: int | None = None
-    large: int | None = None
-    foot: int | None = None
-    tangent: int | None = None
+    small: OwnStep | None = None
+    large: OwnStep | None = None
+    foot: OwnStep | None = None
+    tangent: OwnStep | None = None
 
     def laid_length(self, role: str) -> LaidLength | None:
         """Half the distance of the pins, the radius of Thales's circle."""

@@ -12,7 +12,7 @@ from graphkin.construction.core.bases import bases, contact_name
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.pen import Pen, letter
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.vocabulary import action, difference
 from graphkin.construction.higher_class.divided_point import (
     LineMisclosure,
@@ -62,12 +62,11 @@ class ContactMisclosure(LineMisclosure, frozen=True, kw_only=True):
 class SettledTurn(Determined, frozen=True, kw_only=True):
     """The ``turn`` of a tried ``link``, which a contact determines through all wheels between."""
 
-    gives: ClassVar[tuple[str, ...]] = ("turn",)
     has_angle: ClassVar[bool] = False
 
     link: str
     wheels: tuple[str, ...]
-    turn: int
+    turn: OwnStep
 
     def undetermined(self, args: Sequence[Any]) -> Problem:
         """The problem of wheel ratios that cancel."""

@@ -24,7 +24,7 @@ from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import scale_of, way_of
 from graphkin.construction.core.palette import DIVIDE, JOIN, Move, two
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Target
+from graphkin.construction.core.program import OwnStep, Target
 from graphkin.construction.core.relation import FINE, Relation, answer, figure, within
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.group_images import GroupImages
@@ -61,12 +61,10 @@ def line_through(first: Point, second: Point) -> Line:
 class Divided(Construction, frozen=True, kw_only=True):
     """A value of the right plan between the values of two trials, ``first`` and ``second``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("value",)
-
     first: int
     second: int
     share: int
-    value: int
+    value: OwnStep
 
 
 class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
@@ -96,7 +94,6 @@ class DividedRate(Divided, GivesRate, frozen=True, kw_only=True):
 class CrossedLine(JoinsPoints, frozen=True):
     """The line through two trials of a point, and its crossing with a line known before them."""
 
-    gives: ClassVar[tuple[str, ...]] = ("line", "crossing")
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of the trials"}
     joins: ClassVar[frozenset[str]] = frozenset({"line"})
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.trials"}
@@ -104,8 +101,8 @@ class CrossedLine(JoinsPoints, frozen=True):
     first: int
     second: int
     locus: int
-    line: int
-    crossing: int
+    line: OwnStep
+    crossing: OwnStep
 
     def clause(self, drawing: Drawing, role: str) -> str:
         """The clause for the line, by the names of the trials."""
@@ -158,17 +155,16 @@ class DividedPoint(Divided, FindsImage, frozen=True, kw_only=True):
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the crossing; empty for divided points, which share one sentence."""
-        if not self.is_crossed(drawing.trace.values):
-            return ""
-        name = drawing.trace.program.steps[self.value].name
-        return drawing.words("step.meet", name=drawing.symbol(name))
+        return self.crossing_words(drawing, "step.meet")
 
     def point_apart(self, drawing: Drawing, role: str) -> str:
         """The sentence for the crossing, on its own."""
-        if not self.is_crossed(drawing.trace.values):
-            return ""
-        name = drawing.trace.program.steps[self.value].name
-        return drawing.words("step.meet-apart", name=drawing.symbol(name))
+        return self.crossing_words(drawing, "step.meet-apart")
+
+    def crossing_words(self, drawing: Drawing, key: str) -> str:
+        """The words of a key for the crossing; empty where the point divides its line."""
+        crossed = self.is_crossed(drawing.trace.values)
+        return drawing.words(key, name=drawing.lettered(self.value)) if crossed else ""
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the point, with the line of its trials where no other step draws that line."""
@@ -291,9 +287,7 @@ class Misclosure(Construction, frozen=True, kw_only=True):
     The gap is drawn unless a crossing, at the step ``settled``, shows how the right plan divides.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("size",)
-
-    size: int
+    size: OwnStep
     settled: int | None = None
 
     def amount(self, drawing: Drawing) -> float:

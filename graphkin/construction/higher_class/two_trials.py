@@ -6,7 +6,7 @@ The misclosure is linear in the trial rate (method of two plans, false position)
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any, ClassVar
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -23,7 +23,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import drawn_between, driver_index, scale_of, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane, Program, Target
+from graphkin.construction.core.program import OwnStep, Part, Plane, Program, Target
 from graphkin.construction.core.quantities import OnPaper
 from graphkin.construction.core.relation import Relation, answer, drawn_length, figure, within
 from graphkin.construction.core.vocabulary import (
@@ -100,13 +100,11 @@ class TwoTrials(ClosesGroup, SaidInParts, frozen=True):
     ``measured`` on the line of its trials.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("share", "measured")
-
     group: CoupledTrain | Higher
     plans: tuple[TrialPlan, TrialPlan]
     gaps: tuple[Misclosure, Misclosure]
-    share: int
-    measured: int | None
+    share: OwnStep
+    measured: OwnStep | None
 
     @property
     def closes(self) -> tuple[str, ...]:

@@ -14,6 +14,7 @@ from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.naming import angle_symbol, axis_of
 from graphkin.construction.core.palette import MARK_OFF, Move, one_and_length
 from graphkin.construction.core.pen import Pen
+from graphkin.construction.core.program import OwnStep
 from graphkin.construction.core.quantities import in_degrees
 from graphkin.construction.core.vocabulary import action, ray
 from graphkin.construction.guides.guide_line import axis_by_guide
@@ -50,7 +51,6 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     The bar is laid off on the ``line`` at the driver's angle.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("line", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.crank"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line through {pivot}"}
     between: ClassVar[tuple[str, ...]] = ("pivot", "name")
@@ -59,8 +59,8 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
     link: str
     pivot: str
     name: str
-    line: int
-    tip: int
+    line: OwnStep
+    tip: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the end of the line, beyond the bar."""
@@ -97,7 +97,6 @@ class DrivenCrank(Construction, frozen=True, kw_only=True):
 class TurnedLink(Construction, frozen=True, kw_only=True):
     """The ``tip``, called ``name``, of a ``link`` turned about its ``pivot`` to ``turn``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("tip",)
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.turned_link"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"tip": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("pivot", "name")
@@ -107,7 +106,7 @@ class TurnedLink(Construction, frozen=True, kw_only=True):
     pivot: str
     name: str
     turn: int
-    tip: int
+    tip: OwnStep
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the tip by its angle, or by the bar's angle if found with a group."""

@@ -15,7 +15,7 @@ from graphkin.construction.core.kind import Construction, lies_along
 from graphkin.construction.core.naming import drawn_amount, nearest_side
 from graphkin.construction.core.palette import COMPASS, CUTS, Move, one_and_length
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.program import OwnStep, Step
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, pick
@@ -42,7 +42,6 @@ def compass(centre: Point, radius: Real) -> Circle:
 class CompassArc(Construction, frozen=True, kw_only=True):
     """The ``arc`` of a ``radius`` about the point ``centre``, on which a ``point`` lies."""
 
-    gives: ClassVar[tuple[str, ...]] = ("arc",)
     lines: ClassVar[Mapping[str, str]] = {"arc": "the arc {centre}{point} about {centre}"}
     between: ClassVar[tuple[str, ...]] = ("centre", "point")
     laid_at: ClassVar[str] = "arc"
@@ -50,7 +49,7 @@ class CompassArc(Construction, frozen=True, kw_only=True):
     centre: str
     point: str
     radius: int
-    arc: int
+    arc: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the part of the arc that finds the point."""
@@ -110,7 +109,6 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     They are ``near``, about ``left``, and ``far``, about ``right``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("pin",)
     reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arcs"}
     loci: ClassVar[Message] = message("the arcs")
     apart: ClassVar[Message] = message("the arcs miss each other")
@@ -123,7 +121,7 @@ class DyadByArcs(Determined, frozen=True, kw_only=True):
     right: str
     near: int
     far: int
-    pin: int
+    pin: OwnStep
 
     def symbols(self) -> Mapping[str, str]:
         """The symbols of the outer pins."""
@@ -250,7 +248,6 @@ def arc_cuts_line(line: Line, circle: Circle, way: int) -> Point:
 class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     """The ``pin`` called ``name``, in which the ``arc`` about ``centre`` cuts the line ``path``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("pin",)
     reasons: ClassVar[Mapping[str, str]] = {"pin": "why.arc"}
     loci: ClassVar[Message] = message("the arc and the guide")
     apart: ClassVar[Message] = message("the arc misses the guide")
@@ -262,7 +259,7 @@ class DyadByArcAndGuide(Determined, frozen=True, kw_only=True):
     centre: str
     path: int
     arc: int
-    pin: int
+    pin: OwnStep
 
     def symbols(self) -> Mapping[str, str]:
         """The symbol of the arc's centre."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.guides.guide_line import axis_by_guide, axis_with_guide
 from graphkin.construction.guides.guides import axis
 from graphkin.construction.links.link_shapes import local_place
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 class KeptDirection(Construction, frozen=True, kw_only=True):
     """The direction of a ``link`` that ``bars`` keep parallel to the link ``lead``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("turn",)
     reasons: ClassVar[Mapping[str, str]] = {"turn": "why.parallel"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
     titled: ClassVar[str] = "the direction of link {link}"
@@ -31,7 +30,7 @@ class KeptDirection(Construction, frozen=True, kw_only=True):
     link: str
     lead: str
     bars: tuple[str, ...]
-    turn: int
+    turn: OwnStep
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The sentence that names the bars and the link to which they keep it parallel."""

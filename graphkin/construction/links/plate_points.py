@@ -21,7 +21,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import nearest_side
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.guides.guide_line import point_on_link
@@ -41,7 +41,6 @@ UNTURNED = 0.05
 class PlacedPoint(Construction, frozen=True, kw_only=True):
     """A ``point`` of a ``link``, laid off from its point ``start`` at the link's angle."""
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.placed"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("start", "name")
@@ -50,7 +49,7 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
     link: str
     start: str
     name: str
-    point: int
+    point: OwnStep
 
     def turned(self, drawing: Drawing) -> float | None:
         """The degrees by which its wheel has turned the link; None where no wheel turns it."""
@@ -141,15 +140,14 @@ class PlatePoint(Construction, frozen=True, kw_only=True):
     Its value comes from the figure similar to the link; by hand, the point is the ``corner``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("corner", "point")
     pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
     between: ClassVar[tuple[str, ...]] = ("start", "end", "name")
 
     start: str
     end: str
     name: str
-    point: int
-    corner: int | None = None
+    point: OwnStep
+    corner: OwnStep | None = None
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The reason, where the point is found by hand."""
@@ -213,14 +211,13 @@ class PointInLine(PlatePoint, frozen=True, kw_only=True):
 class PointOnLever(Construction, frozen=True, kw_only=True):
     """A ``point`` called ``name``, laid off from the pivot ``start`` on the line of a lever."""
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.on_lever"}
     between: ClassVar[tuple[str, ...]] = ("start", "name")
     laid_at: ClassVar[str] = "point"
 
     start: str
     name: str
-    point: int
+    point: OwnStep
 
     def point_sentence(self, drawing: Drawing, role: str) -> str:
         """The sentence for the point by its distance."""

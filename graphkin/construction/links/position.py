@@ -21,7 +21,7 @@ from graphkin.scene.model import Apart, Link, Scene
 from graphkin.structure.groups import Crank, Driven, Dyad, Group, OnTwoPins, Tie
 from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Joint, Pin, Sliding
-from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, message
+from graphkin.text.errors import NO_WORDS, Message, StructureError, message
 
 FITS = 1e-6
 """Misfit of an idle link, as a fraction of its length, that printed lengths may cause."""
@@ -179,16 +179,14 @@ def refuse_misfit(pen: Pen, group: Tie) -> None:
         expected = message("a length that fits: the link is idle, the rest moves without it")
     if not found:
         return
-    raise StructureError(
-        Problem(
-            f"links.{link}",
-            found,
-            expected,
-            message(
-                "another closure may fit, and graphkin check lists them; or take a driver "
-                "away, if the link is to move the rest"
-            ),
-        )
+    raise StructureError.at(
+        f"links.{link}",
+        found,
+        expected,
+        message(
+            "another closure may fit, and graphkin check lists them; or take a driver "
+            "away, if the link is to move the rest"
+        ),
     )
 
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from math import degrees, pi
-from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import angle_symbol, place
-from graphkin.construction.core.program import Step
+from graphkin.construction.core.program import OwnStep, Step
 from graphkin.construction.core.relation import Relation, as_read, bracketed, figure, put_in
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import escape, of_wheel, symbol
@@ -28,11 +27,9 @@ class RolledTurn(Construction, frozen=True, kw_only=True):
     links that it depends on, by their names.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("turn",)
-
     link: str
     start: int
-    turn: int
+    turn: OwnStep
     leads: Mapping[str, int]
 
     def since(self, drawing: Drawing) -> float:
@@ -226,12 +223,10 @@ class CountedTurn(Construction, frozen=True, kw_only=True):
     Two steps hold that angle: its ``heading`` and its ``radians``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("turn",)
-
     link: str
     heading: int
     radians: int
-    turn: int
+    turn: OwnStep
 
 
 def counted_link(step: Step) -> str | None:

@@ -42,7 +42,7 @@ from graphkin.construction.core.pen import (
     letter,
     relative_arrow,
 )
-from graphkin.construction.core.program import Effect, Part, Plane
+from graphkin.construction.core.program import Effect, OwnStep, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import (
     Relation,
@@ -117,7 +117,6 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     Turned by 180° about the pin, the cut becomes ``end``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("tip", "edge", "line", "cut", "end", "read", "vector")
     sign: ClassVar[str] = "ν"
     look: ClassVar[str] = "normal"
     effect: ClassVar[Effect] = "normal components"
@@ -146,11 +145,11 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
     pin: int
     pivot_image: int
     pin_image: int
-    tip: int | None = None
-    edge: int | None = None
-    line: int | None = None
-    cut: int | None = None
-    end: int | None = None
+    tip: OwnStep | None = None
+    edge: OwnStep | None = None
+    line: OwnStep | None = None
+    cut: OwnStep | None = None
+    end: OwnStep | None = None
 
     @property
     def speed(self) -> str:
@@ -470,18 +469,6 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     guide in ``whole``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = (
-        "across",
-        "line",
-        "corner",
-        "around",
-        "over",
-        "chord",
-        "foot",
-        "whole",
-        "read",
-        "vector",
-    )
     reasons: ClassVar[Mapping[str, str]] = {"corner": "why.klein", "foot": "why.chord"}
     lines: ClassVar[Mapping[str, str]] = {
         "line": "{p}{q}",
@@ -497,13 +484,13 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
     o: str
     centre: int
     omega: int
-    across: int | None = None
-    corner: int | None = None
-    around: int | None = None
-    over: int | None = None
-    chord: int | None = None
-    foot: int | None = None
-    whole: int | None = None
+    across: OwnStep | None = None
+    corner: OwnStep | None = None
+    around: OwnStep | None = None
+    over: OwnStep | None = None
+    chord: OwnStep | None = None
+    foot: OwnStep | None = None
+    whole: OwnStep | None = None
 
     def symbols(self) -> Mapping[str, str]:
         """The centre of the crank, and the pins."""
@@ -622,8 +609,8 @@ def klein_component(pen: Pen, crank: Base, sides: list[tuple[Joint, str]], pin: 
             whole = pen.arrow(chord_cuts_guide, chord, centre, guide, name=names[2])
             with pen.on(Part.NORMAL, Plane.NUMBERS):
                 read = pen.draw(klein_by_hand, places[0], foot, omega)
-        own = (across, line, corner, around, over, chord, foot, whole, read)
-        return dict(zip(KleinComponent.gives, own, strict=False))
+        circles = {"around": around, "over": over, "chord": chord, "foot": foot, "whole": whole}
+        return {"across": across, "line": line, "corner": corner, **circles, "read": read}
 
     kind = partial(KleinComponent, o=lettered(crank.start), centre=centre, omega=omega)
     return normal_component(pen, pivot, pin, kind, drawn)

@@ -18,7 +18,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import arrow_of, drawn_amount, straight, way_of
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import Effect, Plane, Step, plan_vector
+from graphkin.construction.core.program import Effect, OwnStep, Plane, Step, plan_vector
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
@@ -160,13 +160,12 @@ class Track(Construction, frozen=True, kw_only=True):
     ``sign`` is the wheel's name among the wheels of its link.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     guided: ClassVar[str] = "wheel"
 
     wheel: str
     sign: str
     rolling: Rolling
-    line: int
+    line: OwnStep
 
     def line_name(self, steps: Sequence[Step], role: str) -> str:
         """The track, by the point through which it is drawn, or by its wheel."""
@@ -189,7 +188,6 @@ class CentrePath(Construction, frozen=True, kw_only=True):
     ``sign`` is the wheel's name among the wheels of its link.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "the path of the centre of {wheel}"}
     lines_before: ClassVar[tuple[str, ...]] = ("track",)
     guided: ClassVar[str] = "wheel"
@@ -198,7 +196,7 @@ class CentrePath(Construction, frozen=True, kw_only=True):
     sign: str
     centre: str
     track: int
-    line: int
+    line: OwnStep
 
     def path_name(self, drawing: Drawing) -> str:
         return drawing.words("page.trajectory", of=symbol(self.centre))
@@ -214,7 +212,6 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
     ``found_from`` are the steps of the values that give the point.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     reasons: ClassVar[Mapping[str, str]] = {"point": "why.touch"}
     marked_as: ClassVar[str] = "contact"
 
@@ -222,7 +219,7 @@ class PointOfContact(Construction, frozen=True, kw_only=True):
     wheel: str
     on: str
     found_from: tuple[int, ...]
-    point: int
+    point: OwnStep
 
     def symbols(self) -> dict[str, str]:
         """The symbols of the contact, of the wheel's own point there, and of both links."""
@@ -302,13 +299,12 @@ class RackPoint(Construction, frozen=True, kw_only=True):
     way.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("point",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"point": ByHand.LAID_OFF}
 
     rack: str
     wheel: str
     way: int
-    point: int
+    point: OwnStep
 
     def is_toothed(self, drawing: Drawing) -> bool:
         """Whether its wheel is a gear."""
@@ -338,15 +334,14 @@ class RollerCentre(Construction, frozen=True, kw_only=True):
     angles at the zeros of the tracks, and from its ``radii`` on both tracks.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("where", "centre")
     reasons: ClassVar[Mapping[str, str]] = {"centre": "why.roller"}
     lines_before: ClassVar[tuple[str, ...]] = ("path",)
 
     path: int
     lean: int
     radii: tuple[int, int]
-    where: int
-    centre: int
+    where: OwnStep
+    centre: OwnStep
 
     def is_halfway(self, drawing: Drawing) -> bool:
         """Whether the roller has rolled equally far on both tracks."""

@@ -29,7 +29,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import plan_amount, scale_of
 from graphkin.construction.core.pen import Pen, image
-from graphkin.construction.core.program import SPEEDS, Part, Plane
+from graphkin.construction.core.program import SPEEDS, OwnStep, Part, Plane
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action, meet
@@ -117,7 +117,6 @@ def kept(omega: Real) -> Real:
 class LadderAxis(Construction, frozen=True, kw_only=True):
     """The ``axis``, parallel to the line of centres ``p`` and ``q``, and the first foot on it."""
 
-    gives: ClassVar[tuple[str, ...]] = ("axis", "start")
     reasons: ClassVar[Mapping[str, str]] = {"start": "why.ladder_axis"}
     lines: ClassVar[Mapping[str, str]] = {"axis": "the axis"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"start": ByHand.LAID_OFF}
@@ -125,8 +124,8 @@ class LadderAxis(Construction, frozen=True, kw_only=True):
     p: str
     q: str
     name: str
-    axis: int
-    start: int
+    axis: OwnStep
+    start: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the axis as a chain line, with its first foot."""
@@ -152,15 +151,14 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
     tip.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("foot", "tip")
     reasons: ClassVar[Mapping[str, str]] = {"tip": "why.ladder_tip"}
     pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("foot", "tip"), ByHand.LAID_OFF)
 
     point: str
     before: int
     velocity: int | None
-    foot: int
-    tip: int | None
+    foot: OwnStep
+    tip: OwnStep | None
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the point, and its velocity over its foot."""
@@ -188,7 +186,6 @@ class LadderPoint(Construction, frozen=True, kw_only=True):
 class LadderRay(JoinsPoints, frozen=True, kw_only=True):
     """The ``ray`` of a ``link`` through the tips ``first`` and ``last`` of two of its points."""
 
-    gives: ClassVar[tuple[str, ...]] = ("ray",)
     reasons: ClassVar[Mapping[str, str]] = {"ray": "why.ladder_ray"}
     lines: ClassVar[Mapping[str, str]] = {"ray": "the ray of link {link}"}
     joins: ClassVar[frozenset[str]] = frozenset({"ray"})
@@ -196,7 +193,7 @@ class LadderRay(JoinsPoints, frozen=True, kw_only=True):
     link: str
     first: int
     last: int
-    ray: int
+    ray: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the ray, labelled with its link."""
@@ -216,16 +213,15 @@ class SpeedPole(Construction, frozen=True, kw_only=True):
     Their distance is that of ``p`` and ``q``, the centre and the rim of a wheel.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("pole", "start", "line")
     reasons: ClassVar[Mapping[str, str]] = {"start": "why.ladder_scale"}
     lines: ClassVar[Mapping[str, str]] = {"line": "the line of speeds"}
     pencil: ClassVar[Mapping[str, ByHand]] = dict.fromkeys(("pole", "start"), ByHand.LAID_OFF)
 
     p: str
     q: str
-    pole: int
-    start: int
-    line: int
+    pole: OwnStep
+    start: OwnStep
+    line: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw both points, and the line."""
@@ -267,16 +263,15 @@ class SpeedRead(GivesRate, frozen=True, kw_only=True):
     neither.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("parallel", "cut", "read", "rate")
     reasons: ClassVar[Mapping[str, str]] = {"cut": "why.ladder_speed"}
     lines: ClassVar[Mapping[str, str]] = {"parallel": "the parallel to the ray of link {link}"}
 
     link: str
     scale: SpeedPole
-    parallel: int
-    cut: int
-    read: int | None = None
-    rate: int | None = None
+    parallel: OwnStep
+    cut: OwnStep
+    read: OwnStep | None = None
+    rate: OwnStep | None = None
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the parallel from the pole to the point that it cuts off."""

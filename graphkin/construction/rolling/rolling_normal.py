@@ -11,7 +11,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction, Run, Wording
 from graphkin.construction.core.naming import drawn_between, laid_off_words, rate_symbol
 from graphkin.construction.core.pen import Pen, letter, second_image
-from graphkin.construction.core.program import Part, Plane, PlanVector
+from graphkin.construction.core.program import OwnStep, Part, Plane, PlanVector
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off
@@ -49,7 +49,6 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     ``on_bar`` means that a bar rolls on a wheel.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("vector", "image")
     sign: ClassVar[str] = "ν"
     look: ClassVar[str] = "normal"
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.normal"}
@@ -63,7 +62,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
     omega: int
     omega_track: int
     start: int
-    image: int
+    image: OwnStep
     on_bar: bool = False
 
     def symbols(self) -> Mapping[str, str]:
@@ -238,7 +237,6 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
     their line of centres.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.no_slip"}
     lines: ClassVar[Mapping[str, str]] = {"line": "∥ {p}{q}"}
 
@@ -246,7 +244,7 @@ class CommonNormal(Construction, frozen=True, kw_only=True):
     q: str
     belted: bool = False
     start: int
-    line: int
+    line: OwnStep
 
     @property
     def runs(self) -> Run:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
 
 from msgspec import Struct
 
@@ -13,7 +12,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import rate_symbol
 from graphkin.construction.core.pen import Pen, component_arrow, letter, relative_arrow
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
 from graphkin.construction.guides.guides import known_guide
@@ -55,14 +54,12 @@ class RateByRadii(GivesRate, frozen=True, kw_only=True):
     belt. ``signs`` are the names of both wheels.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("rate",)
-
     link: str
     other: str
     turning: int
     radii: tuple[int, int]
     signs: tuple[str, str]
-    rate: int
+    rate: OwnStep
 
     def source_of_rate(self, drawing: Drawing) -> str:
         """The other's rate by the radii, with its value."""

@@ -27,7 +27,7 @@ from graphkin.construction.core.palette import (
     place_and_image,
 )
 from graphkin.construction.core.pen import Pen, letter
-from graphkin.construction.core.program import Part, Plane, Step
+from graphkin.construction.core.program import OwnStep, Part, Plane, Step
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.construction.core.vocabulary import action, in_proportion, meet, similar_point
 from graphkin.construction.plan import Plan
@@ -48,7 +48,6 @@ def alike(image: Point) -> Point:
 class TranslatedImage(FallsOnImage, frozen=True, kw_only=True):
     """The ``image`` of a point ``q``, which coincides with the image ``start`` of ``p``."""
 
-    gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.alike"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.KNOWN}
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
@@ -56,7 +55,7 @@ class TranslatedImage(FallsOnImage, frozen=True, kw_only=True):
     p: str
     q: str
     start: int
-    image: int
+    image: OwnStep
 
     @property
     def falls_on(self) -> int:
@@ -87,7 +86,6 @@ class CrossedImage(FindsImage, frozen=True, kw_only=True):
     Without a ``point`` it only shows by hand what similarity finds.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.meet"}
     lines_before: ClassVar[tuple[str, ...]] = ("first", "second")
     imaged: ClassVar[frozenset[str]] = frozenset({"image"})
@@ -95,7 +93,7 @@ class CrossedImage(FindsImage, frozen=True, kw_only=True):
     point: str
     first: int
     second: int
-    image: int
+    image: OwnStep
 
     @property
     def sought(self) -> str:
@@ -132,7 +130,6 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
     in p and q.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("image",)
     pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
 
     p: str
@@ -143,7 +140,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
     second: int
     ratio: int
     hand: int | None
-    image: int
+    image: OwnStep
     touching: tuple[str, ...] = ()
 
     def symbols(self) -> Mapping[str, str]:

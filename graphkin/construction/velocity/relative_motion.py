@@ -29,7 +29,7 @@ from graphkin.construction.core.palette import (
     two,
 )
 from graphkin.construction.core.pen import Pen, against, image, letter
-from graphkin.construction.core.program import Plane, Step
+from graphkin.construction.core.program import OwnStep, Plane, Step
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
 from graphkin.construction.core.vocabulary import action
 from graphkin.drawing.symbol_markup import bar, escape, symbol
@@ -191,14 +191,13 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
     If the pivot is a contact point, ``touch`` is the name of its image.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     reasons: ClassVar[Mapping[str, str]] = {"line": "why.perpendicular"}
     lines: ClassVar[Mapping[str, str]] = {"line": "⊥ {p}{q}"}
     lines_before: ClassVar[tuple[str, ...]] = ("start",)
     along_bar: ClassVar[str] = "turn.wrong.along_bar"
 
     start: int
-    line: int
+    line: OwnStep
     touch: str = ""
 
     @property
@@ -267,12 +266,11 @@ def parallel_to(start: Point, line: Line) -> Line:
 class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
     """The ``line`` on which the image of a point that slides on a guide lies."""
 
-    gives: ClassVar[tuple[str, ...]] = ("line",)
     lines: ClassVar[Mapping[str, str]] = {"line": "∥ guide {guide}"}
     lines_before: ClassVar[tuple[str, ...]] = ("start",)
     guided: ClassVar[str] = "guide"
 
-    line: int
+    line: OwnStep
 
     def reason(self, drawing: Drawing, role: str) -> str:
         """The key of the reason: relative to its guide, a block only moves along the guide."""

@@ -26,6 +26,7 @@ from graphkin.construction.core.naming import (
 )
 from graphkin.construction.core.palette import LAYS_OFF, Move
 from graphkin.construction.core.pen import Pen, against, letter
+from graphkin.construction.core.program import OwnStep
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.vocabulary import action
@@ -152,7 +153,6 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
     ``omega`` is the angular velocity of their ``link``.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("image",)
     reasons: ClassVar[Mapping[str, str]] = {"image": "why.turned"}
     pencil: ClassVar[Mapping[str, ByHand]] = {"image": ByHand.LAID_OFF}
     lines_before: ClassVar[tuple[str, ...]] = ("start",)
@@ -160,7 +160,7 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
 
     start: int
     omega: int
-    image: int
+    image: OwnStep
 
     def tried_rate(self, role: str) -> int:
         """The angular velocity."""

@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate
 from graphkin.construction.core.naming import driver_index, rate_symbol, sense, turning_with
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import plan_vector
+from graphkin.construction.core.program import OwnStep, plan_vector
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import FINE, Relation, figure, length_of, put_in, within
 from graphkin.construction.core.vocabulary import action, difference, sum_of
@@ -44,7 +44,6 @@ class TurningOfLink(GivesRate, frozen=True, kw_only=True):
     ``quantity`` is omega or epsilon. ``places`` and ``images`` are the steps of both points.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("rate",)
     vectors: ClassVar[Mapping[str, str]] = {OMEGA: "v_{}", EPSILON: "a_{}^τ"}
 
     turns: ClassVar[Mapping[str, str]] = {"velocity": "why.omega", "acceleration": "why.epsilon"}
@@ -56,7 +55,7 @@ class TurningOfLink(GivesRate, frozen=True, kw_only=True):
     index: str
     places: tuple[int, int]
     images: tuple[int, int]
-    rate: int
+    rate: OwnStep
 
     def vector(self, index: str) -> str:
         """The symbol of the relative vector that is perpendicular to the bar."""
@@ -123,13 +122,11 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
     For the link against which another one is turned, the given rate ``own`` is subtracted.
     """
 
-    gives: ClassVar[tuple[str, ...]] = ("rate",)
-
     link: str
     driver: int
     other: int
     own: int
-    rate: int
+    rate: OwnStep
 
     def sign(self, drawing: Drawing) -> str:
         return "+" if drawing.scene.drivers[self.driver].link == self.link else "−"

@@ -36,7 +36,7 @@ from graphkin.loops.rounding import RateBounds, Rounding, led, loads, straight, 
 from graphkin.numbers.plane import Ratio, dot
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import FRAME, Scene
-from graphkin.text.errors import Problem, WitnessError, message
+from graphkin.text.errors import WitnessError, message
 
 
 class Jerks(Struct, frozen=True, eq=False):
@@ -469,15 +469,12 @@ def path_of(quantity: MotionQuantity, name: str) -> str:
 
 def unwitnessed(quantity: MotionQuantity, name: str) -> WitnessError:
     """The error for a quantity that has no route independent of its construction."""
-    return WitnessError(
-        Problem(
-            path_of(quantity, name),
-            message("no independent route gives this quantity"),
-            message(
-                "a route of {target} among the routes of the independent check",
-                target=quantity.target,
-            ),
-        )
+    return WitnessError.at(
+        path_of(quantity, name),
+        message("no independent route gives this quantity"),
+        message(
+            "a route of {target} among the routes of the independent check", target=quantity.target
+        ),
     )
 
 
@@ -547,12 +544,10 @@ def guide_of(solved: LoopSolution, block: str) -> int:
     """The first guide of a block. Raises WitnessError where the loops have none."""
     found = solved.loops.guide_index(block)
     if found is None:
-        raise WitnessError(
-            Problem(
-                f"slides.{block}",
-                message("the vector loops know no guide of this block"),
-                message("a guide"),
-            )
+        raise WitnessError.at(
+            f"slides.{block}",
+            message("the vector loops know no guide of this block"),
+            message("a guide"),
         )
     return found
 
