@@ -26,6 +26,8 @@ AT_EDGE = 2.0
 """SLACK where a corner cannot be drawn: near a flat dyad the misfit grows like a square root."""
 BENT = 0.5
 """Further slack as a share of the whole range, for the square of a cell's side in radians."""
+BENDING = 0.25
+"""Slack as a share of the second differences at the corners; an eighth is what a parabola needs."""
 ROOT = 2.0
 """BENT where a corner cannot be drawn, for the square root of that side.
 
@@ -131,7 +133,7 @@ def corners_of(size: int) -> Array:
 
 
 def may_vanish(
-    misfits: Sequence[tuple[Array, Array]],
+    misfits: Sequence[tuple[Array, Array, Array]],
     reaches: Sequence[tuple[Array, Array]],
     some: Array,
     whole: Array,
@@ -140,15 +142,16 @@ def may_vanish(
 ) -> Array:
     """The cells in which all misfits may vanish.
 
-    The test uses the least and largest values at the corners, or the dyads' reaches where no corner
-    can be drawn. ``some`` and ``whole`` mark cells of which some or all corners can be drawn.
+    The test uses the least and largest values at the corners and how far a misfit bends between
+    them, or the dyads' reaches where no corner can be drawn. ``some`` and ``whole`` mark cells of
+    which some or all corners can be drawn.
     ``ranges`` are the ranges of the misfits.
     """
     bent = np.where(whole, BENT * side.max() ** 2, ROOT * np.sqrt(side.max()))
     slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
     with np.errstate(all="ignore"):
-        for (low, high), most in zip(misfits, np.moveaxis(ranges, -1, 0), strict=True):
-            more = (high - low) * slack + bent * most
+        for (low, high, bend), most in zip(misfits, np.moveaxis(ranges, -1, 0), strict=True):
+            more = (high - low) * slack + bent * most + BENDING * bend
             crossed = crossed & (low - more <= 0) & (high + more >= 0)
             drawn = drawn & np.isfinite(most)
         for low, high in reaches:
@@ -167,16 +170,28 @@ def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
     finite = np.isfinite(value).all(axis=0)
     value = np.where(finite, value, np.nan)
     strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
+    bends = [bending(each, size) for each in value]
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
         some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
-        misfits, reaches = (
+        ends, reaches = (
             [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
             for every in (value, reach)
         )
+        misfits = [(*each, bend) for each, bend in zip(ends, bends, strict=True)]
         keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
     return joined(parts)
+
+
+def bending(value: Array, size: int) -> Array:
+    """The sum of the largest second differences along each unknown on 3^n nodes (C, 3^n)."""
+    cube = value.reshape(-1, *[3] * size)
+    found = np.zeros(len(cube))
+    for axis in range(1, size + 1):
+        second = abs(np.diff(cube, 2, axis=axis)).reshape(len(cube), -1)
+        found += np.fmax.reduce(second, axis=1, initial=0.0)
+    return found
 
 
 def closed_in(

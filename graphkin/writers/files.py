@@ -7,6 +7,7 @@ import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
+from unicodedata import normalize
 from zlib import crc32
 
 from graphkin.drawing.marks import Page
@@ -29,8 +30,8 @@ PDF_ONLY = "calculation"
 
 
 def file_part(text: str) -> str:
-    """A name or value as part of a file name; unsafe characters become _."""
-    part = re.sub(r"[^\w.+-]+", "_", text).strip("._")[:LONGEST].rstrip(".")
+    """A name or value as part of a file name, its accents composed; unsafe characters become _."""
+    part = re.sub(r"[^\w.+-]+", "_", normalize("NFC", text)).strip("._")[:LONGEST].rstrip(".")
     return f"_{part}" if part.partition(".")[0].upper() in RESERVED else part or "_"
 
 

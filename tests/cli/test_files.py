@@ -148,3 +148,9 @@ def test_a_folder_that_cannot_be_written_is_told_before_anything_is_worked_out(
 def test_trying_a_folder_leaves_nothing_and_makes_nothing(tmp_path: Path) -> None:
     refuse_folder(tmp_path / "a" / "b")
     assert names(tmp_path) == []
+
+
+def test_a_name_has_one_file_whether_its_accents_are_composed_or_not():
+    composed, apart = "pomp\u0103", "pompa\u0306"
+    assert file_stem(apart, {}) == file_stem(composed, {}) == composed
+    assert file_stem("\u202ex", {}) == "x"

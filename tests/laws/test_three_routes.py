@@ -52,6 +52,7 @@ SEEN = {
     4893: "racks on one link and a wheel between them, which seem to hold that link",
     20870: "a plank on rollers on a bar that another wheel holds",
     22276: "a rack on a link whose closures are numbered before it comes",
+    31836: "two closures that nearly merge between the places of a search",
     30334: "a bar kept at a wheel that a rack carries",
     30620: "a rack on which a bar hangs, on a block that turns far round",
 }

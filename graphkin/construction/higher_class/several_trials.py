@@ -249,6 +249,10 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             code = code * (across + 1) + corners[:, k]
         _, first, which = np.unique(code, return_index=True, return_inverse=True)
         own, nodes = np.repeat(row, 2**size)[first], corners[first]
+        beside = [
+            nodes_beside(code[first], nodes[:, k], (across + 1) ** (size - 1 - k), across)
+            for k in range(size)
+        ]
         new = np.arange(2 ** len(stage.signs))
         overrides: dict[int, Any] = dict(zip(self.inputs, known, strict=True))
         for k, one in enumerate(self.unknowns[: size + 1]):
@@ -279,7 +283,23 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             misfits, reaches = (
                 [np.broadcast_to(each, shape) for each in some] for some in (misfits, reaches)
             )
-        return Corners(row, place, codes, which.reshape(len(row), 2**size), shape, misfits, reaches)
+        which = which.reshape(len(row), 2**size)
+        return Corners(row, place, codes, which, beside, shape, misfits, reaches)
+
+
+def nodes_beside(code: Array, place: Array, stride: int, across: int) -> tuple[Array, Array]:
+    """The nodes before and after each one along an unknown; itself where either is missing.
+
+    ``code`` are the rising numbers of the nodes (N,), ``stride`` is what a step adds to them, and
+    ``place`` their steps from 0 to ``across`` along that unknown.
+    """
+    own, within = np.arange(len(code)), (place > 0) & (place < across)
+    sides = [code + way * stride for way in (-1, 1)]
+    found = [np.searchsorted(code, side).clip(0, len(code) - 1) for side in sides]
+    for each, side in zip(found, sides, strict=True):
+        within &= code[each] == side
+    before, after = (np.where(within, each, own) for each in found)
+    return before, after
 
 
 class GridStage(NamedTuple):
@@ -299,14 +319,16 @@ class Corners(NamedTuple):
     """Cells (C, k), their rows, and the values at their corners along one more unknown.
 
     ``misfits`` and ``reaches`` are arrays of a ``shape``: nodes, sets of signs, and places along
-    that unknown. ``which`` has the nodes of each cell (C, 2^k), and ``codes`` the number that each
-    set of signs adds to a row.
+    that unknown. ``which`` has the nodes of each cell (C, 2^k), ``beside`` those
+    before and after each node along each unknown, and ``codes`` the number that each set of signs
+    adds to a row.
     """
 
     row: Array
     place: Array
     codes: Array
     which: Array
+    beside: list[tuple[Array, Array]]
     shape: tuple[int, ...]
     misfits: list[Array]
     reaches: list[Array]
@@ -326,7 +348,8 @@ class Corners(NamedTuple):
             finite = np.full(self.shape, bool(self.misfits))
             for each in self.misfits:
                 finite = finite & np.isfinite(each)
-            ends = [self.ends(np.where(finite, each, np.nan)) for each in self.misfits]
+            drawn = [np.where(finite, each, np.nan) for each in self.misfits]
+            ends = [(*self.ends(each), self.bending(each)) for each in drawn]
             whole = self.over(np.logical_and, finite)
             some = self.over(np.logical_or, finite)
             keep = may_vanish(ends, [*map(self.ends, self.reaches)], some, whole, ranges, side)
@@ -337,6 +360,16 @@ class Corners(NamedTuple):
     def ends(self, value: Array) -> tuple[Array, Array]:
         """The least and the largest value at the corners of each cell."""
         return self.over(np.fmin, value), self.over(np.fmax, value)
+
+    def bending(self, value: Array) -> Array:
+        """The largest sum of second differences at the corners of each cell; unknown ones are 0."""
+        found = np.zeros(value.shape)
+        second = abs(np.diff(value, 2))
+        found[..., 1:-1] += np.where(np.isfinite(second), second, 0.0)
+        for before, after in self.beside:
+            second = abs(value[before] - 2 * value + value[after])
+            found += np.where(np.isfinite(second), second, 0.0)
+        return self.over(np.fmax, found)
 
     def over(self, both: Any, value: Array) -> Array:
         """Combine a value over all corners of each cell with the function ``both``."""
