@@ -154,9 +154,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     at = equal_places(moved, count_of(mechanism), start_of(mechanism), "positions.start")
     refuse_numbers(wanted, len(at))
     few = moved.along(at)
-    unseen = {*mechanism.scene.unseen, *(cam.link for cam in mechanism.scene.cams.values())}
-    seen = [each for each in followers(moved) if each.name not in unseen]
-    travel = next(filter(has_stroke, reversed(seen)), None)
+    travel = next(filter(has_stroke, reversed(followers(moved))), None)
     ends = dead_places(moved, travel)
     named = {nearest: name for name, nearest in also_at(at, ends, moved)}
     between = [(name, u) for name, u in ends if name not in named.values()]

@@ -40,8 +40,17 @@ from graphkin.documents.positions import (
     is_whole,
     numbers_of,
 )
+from graphkin.documents.sheet import (
+    LETTERS,
+    NAME,
+    in_lines,
+    in_table,
+    page_in,
+    title_block,
+    title_line,
+    title_of,
+)
 from graphkin.documents.sheet import caption as heading_of_field
-from graphkin.documents.sheet import in_lines, in_table, page_in, title_block, title_line, title_of
 from graphkin.drawing.clearance import pieces_of
 from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.labels import FieldContent, Label
@@ -140,7 +149,7 @@ def document(drawing: Drawing, kind: str) -> str:
 
 
 def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
-    """The title of a sheet and the data of the mechanism, as far as they have room."""
+    """The title of a sheet and the data of the mechanism, or where these are if they do not fit."""
     own = replace(drawing, scene=found.cycle.scene)
     marks, x, y = title_line(own, named=name)
     paper = drawing.paper
@@ -150,7 +159,8 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
     try:
         return [*marks, *(in_table(paper, given, x, y) or in_lines(own, given, x, y, float))]
     except PageError:
-        return marks
+        elsewhere = drawing.words("positions.data_elsewhere")
+        return [*marks, Text(x, y, elsewhere, "caption", LETTERS, name=NAME)]
 
 
 def proof(found: PositionSet) -> Iterator[Mark]:

@@ -141,11 +141,16 @@ def circle(cycle: Cycle) -> float:
 
 
 def movers_of(cycle: Cycle) -> Iterator[Mover]:
-    """The links pinned to the frame, and the blocks, that no driver moves."""
-    driven = {driver.link for driver in cycle.scene.drivers}
+    """The links pinned to the frame, and the blocks, that no driver moves.
+
+    Links that stand for the contact of a wheel or a cam are no followers.
+    """
+    scene = cycle.scene
+    left_out = {driver.link for driver in scene.drivers} | scene.unseen
+    left_out |= {cam.link for cam in scene.cams.values()}
     targets = cycle.path.ranges[0][0].course.program.targets
     for name, link in cycle.scene.links.items():
-        if name in driven:
+        if name in left_out:
             continue
         if ("slide", name) in targets and ("slide speed", name) in targets:
             yield Mover(name, None, (("slide", name),), ("slide speed", name))

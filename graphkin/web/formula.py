@@ -26,7 +26,9 @@ from graphkin.construction.tape.graph import Graph, Node
 from graphkin.construction.tape.traced import TracedNumber, UntraceableError, entered, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import stated_motion
-from graphkin.motion.sweep import law_of_time
+from graphkin.motion.events import once_round
+from graphkin.motion.pieces import reachable_ranges
+from graphkin.motion.sweep import law_of_time, sweep_of
 from graphkin.scene.expression import TIME
 from graphkin.scene.model import Driver, Scene
 from graphkin.text.errors import Message, Problem, SceneError, message
@@ -83,6 +85,7 @@ class Formula(Struct, frozen=True):
     """A graph as a function: its name and title, arguments, and results by name.
 
     ``others`` are the owners of results whose names are no identifiers, by the identifier.
+    ``changes`` are the places of the first argument beyond which the motion takes other closures.
     """
 
     name: str
@@ -91,6 +94,7 @@ class Formula(Struct, frozen=True):
     arguments: Sequence[Argument]
     results: Mapping[str, int]
     others: Mapping[str, str] = {}
+    changes: Sequence[float] = ()
 
     @property
     def notes(self) -> list[str]:
@@ -103,7 +107,15 @@ class Formula(Struct, frozen=True):
             "and angular acceleration in rad/s2 of link 2, counter-clockwise positive.",
             *(f"{made} in a result stands for {owner}." for made, owner in self.others.items()),
             "Results are NaN or infinite where the mechanism cannot be assembled or is singular.",
+            *self.warnings(),
         ]
+
+    def warnings(self) -> Iterator[str]:
+        """That the motion passes change points, which a function of one position does not know."""
+        if self.changes:
+            places = ", ".join(f"{at:.6g}" for at in self.changes)
+            yield f"The closure is that of the scene. Beyond {self.arguments[0].name} = {places}"
+            yield "the mechanism moves on in another closure."
 
     def statements(
         self, signs: Mapping[str, str], numbers: Mapping[str, str], prefix: str = "_"
@@ -181,7 +193,17 @@ def formula_of(mechanism: Mechanism) -> Formula:
     others = {made: owner for owner, made in [*points.items(), *links.items()] if made != owner}
     used = {graph.nodes[number].name for number in graph.needed(results.values())}
     arguments = [each for each in arguments if each.input in used]
-    return Formula(name, scene.title, graph, arguments, results, others)
+    return Formula(name, scene.title, graph, arguments, results, others, change_places(scene))
+
+
+def change_places(scene: Scene) -> list[float]:
+    """The change points of the only driver, in its unit; none for several, or by the time."""
+    if len(scene.drivers) != 1 or law_of_time(scene):
+        return []
+    path = reachable_ranges(sweep_of(scene))
+    ends = (end for piece in path.ranges[0] for end in (piece.low, piece.high))
+    places = {once_round(path, end.at) for end in ends if end.kind == "change"}
+    return sorted(at / metres_of(scene.drivers[0], scene) for at in places)
 
 
 def refusal(why: Message) -> SceneError:

@@ -100,15 +100,14 @@ def still(mechanism: Mechanism) -> str | None:
             return NO_DRIVER
         tracing = Tracing(mechanism, driven)
         trace = tracing.traced(mechanism.trace(targets))
+        closed = tracing.closed(trace, reach_of(mechanism.scene))
+        return None if tracing.reached(closed) else NO_RANGE
     except UntraceableError:
         return NO_LINE
-    except GraphkinError:
-        return NO_RANGE
-    size = reach_of(mechanism.scene)
-    try:
-        return None if tracing.reached(tracing.closed(trace, size)) else NO_RANGE
     except SceneError:
         return NO_END
+    except GraphkinError:
+        return NO_RANGE
 
 
 def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from math import pi
+from math import floor, log10, pi
 from typing import Any
 
 from msgspec import Struct
@@ -18,6 +18,7 @@ from graphkin.construction.tape.tape_outputs import runner
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import COORDINATES, TURN, What, stated_motion
+from graphkin.motion.driving import reach_of as sum_of_lengths
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import chosen, law_of_time, sweep_of
 from graphkin.numbers.arithmetic import np
@@ -95,7 +96,7 @@ def of_drivers(scene: Scene) -> Iterator[GivenFigure]:
             metres = scene.unit_length
             sweep = sweep_of(scene, driver=number)
             low, high = ((end - sweep.start) / metres for end in (sweep.low, sweep.high))
-            step = (high - low) / TURN
+            step = 10.0 ** floor(log10(sum_of_lengths(scene) / metres / 1000))
         symbol = angle_symbol(scene, driver)
         of, span = (f"figure of driver {number}", f"drive{number}", symbol), (0.0, low, high, step)
         yield GivenFigure(*of, *span, unit, driver=driver, metres=metres)

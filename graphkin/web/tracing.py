@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
-from math import pi
+from math import floor, pi
 from typing import Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from graphkin.construction.core.kind import construction
+from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace, made_ready, run_moving
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of
@@ -19,9 +21,12 @@ from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
+from graphkin.motion.driving import TURN
 from graphkin.motion.pieces import Path, reachable_ranges, through
 from graphkin.motion.sweep import Sweep, Turned, name_of, sweep_of
+from graphkin.numbers.arithmetic import pick
 from graphkin.scene.model import quantities_within
+from graphkin.web.frames import MOST_TURNS
 from graphkin.web.page_driver import INPUT, PageDriver, Reach, reach_of, window
 from graphkin.web.traced_closings import (
     TracedClosing,
@@ -33,6 +38,8 @@ from graphkin.web.traced_closings import (
     tried,
 )
 
+MOST_ROUND = 2
+"""Circles of the driver on each side of its range through which a page knows the closures."""
 SLACK = 1e-6
 """Tolerance on a bar's length at closure, in parts of the mechanism's size."""
 
@@ -79,9 +86,35 @@ class Tracing(Struct, frozen=True, dict=True):
             for place, name in enumerate((*names, *self.fixed_inputs(self.driven.start)))
         }
 
+    def sided(self, program: Program) -> Program:
+        """The program, with the closures that the motion takes beyond its change points.
+
+        The number that selects the side of a step then depends on the driver's place.
+        """
+        pieces, scene = self.path.ranges[0], self.mechanism.scene
+        if len(pieces) == 1 or pieces[0].course.closers:
+            return program
+        turns = range(-MOST_ROUND, MOST_ROUND + 1) if self.path.period else (0,)
+        shifted = [(turn * self.path.period, piece) for turn in turns for piece in pieces]
+        along = [
+            Mechanism(replace(scene, branches={**scene.branches, **piece.branches})).program.steps
+            for piece in pieces
+        ]
+        steps = list(program.steps)
+        for n, every in enumerate(zip(*along, strict=True)):
+            extra = every[0].extra
+            if all(step.extra == extra for step in every):
+                continue
+            for k, (shift, piece) in enumerate(shifted[1:], 1):
+                before = self.x < (piece.low.at + shift) / self.driven.metres
+                pairs = zip(extra, every[k % len(pieces)].extra, strict=True)
+                extra = tuple(pick(before, *pair) for pair in pairs)
+            steps[n] = replace(steps[n], extra=extra)
+        return replace(program, steps=tuple(steps))
+
     def traced(self, drawn: Trace) -> Trace:
         """The steps that were run for a sheet, traced. Raises UntraceableError."""
-        program, values = drawn.program, self.known
+        program, values = self.sided(drawn.program), self.known
         scaled = dict(self.mechanism.trial_rates)
         if program.seconds is not None and program.seconds in drawn.values:
             scaled[program.seconds] = drawn.values[program.seconds]
@@ -230,11 +263,15 @@ class Tracing(Struct, frozen=True, dict=True):
 
     def reached(self, closed: Sequence[int]) -> tuple[Reach, TrackedBranch] | None:
         """The range and the course of the groups through it; None where nothing moves."""
-        if not self.closings:
-            outputs = [self.tape.outputs[i] for i in closed]
-            reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
-            return None if reach is None else (reach, TrackedBranch())
-        return around(self.path, self.driven, self.sweep.start, self.closings)
+        if self.closings:
+            return around(self.path, self.driven, self.sweep.start, self.closings)
+        outputs = [self.tape.outputs[i] for i in closed]
+        reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
+        if reach is not None and self.sweep.whole and self.path.whole:
+            first, turns = TURN * floor(self.driven.start / TURN), self.path.turns
+            back = 1 <= turns <= MOST_TURNS
+            reach = Reach(first, first + TURN * (turns if back else 1), back)
+        return None if reach is None else (reach, TrackedBranch())
 
 
 def closing_steps(trace: Trace) -> Iterator[tuple[int, Any]]:

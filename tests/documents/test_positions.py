@@ -26,6 +26,7 @@ from tests.chosen import FOLDER
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
+from tests.scene_files import FOLDER as SCENES
 
 DRAWN = ("crank-rocker", "shaper", "cam-roller", "cam-lever", "gears-planet", "five-bar")
 
@@ -336,3 +337,9 @@ def test_the_caption_of_plans_says_whether_all_have_one_scale(kind, scaled):
     (said,) = (mark.markup for mark in texts if "own pole" in mark.markup)
     assert any(mark.name.startswith("scale_") for mark in texts) is scaled
     assert ("all at one scale" in said) is not scaled
+
+
+def test_data_without_room_are_said_to_be_elsewhere():
+    """Three cylinders and eleven links need four lines; the sheet has room for two."""
+    page = pages(load(SCENES / "documents/excavator-with-bucket.toml"))["mechanism"]
+    assert "the data are on the sheets of a single position" in said(page)

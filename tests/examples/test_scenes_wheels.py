@@ -228,3 +228,42 @@ def test_a_coupling_rod_moves_along_its_engine(way: int) -> None:
         return s + 80j + x - mpmath.sqrt(250**2 - y * y)
 
     follows(found, "P", piston, (way, 1000, 0))
+
+
+# --- a cam behind gears ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("crank", [130, 180, 240, 290])
+def test_a_crankshaft_lifts_a_tappet_at_half_its_speed(crank: int) -> None:
+    """A cycloidal rise of 8 mm within 90° of the camshaft, after a dwell of 60°.
+
+    The rod of the tappet and the rocker move by the law of cosines from there.
+    """
+    found = motion("valve-train", angle=crank)
+    assert same(omega(found, "camshaft"), 750 * TURN)
+
+    def tappet(phi: mpmath.mpf) -> mpmath.mpc:
+        u = (phi - 60) / 90 if phi < 150 else (240 - phi) / 90
+        return mpmath.mpc(0, 90 + 18 + 8 * (u - mpmath.sin(2 * mpmath.pi * u) / (2 * mpmath.pi)))
+
+    def rocked(phi: mpmath.mpf) -> mpmath.mpc:
+        way = tappet(phi) - mpmath.mpc(48, 330)
+        far = abs(way)
+        cosine = (far**2 + 50**2 - 205**2) / (2 * far * 50)
+        return mpmath.mpc(48, 330) + 50 * way / far * (cosine - 1j * mpmath.sqrt(1 - cosine**2))
+
+    drive = (mpmath.mpf(crank) / 2, 750 * 6, 0)
+    follows(found, "T", tappet, drive)
+    follows(found, "R", rocked, drive)
+
+
+def test_a_plate_on_three_bars_moves_as_its_bars_allow() -> None:
+    """The ends of each bar have the same velocity along it; the plate is rigid."""
+    found = motion("platform-3rrr", angle=85)
+    for pin, plate in ("AD", "BE", "CF"):
+        along = place(found, plate) - place(found, pin)
+        apart = velocity(found, plate) - velocity(found, pin)
+        assert abs((apart * along.conjugate()).real) < 1e-12 * abs(along)
+        assert same(velocity(found, plate), carried(found, 7, "D", place(found, plate)), 1)
+    for pin, speed in (("A", 2), ("B", -1), ("C", 1.5)):
+        assert same(abs(velocity(found, pin)), 0.13 * abs(speed))

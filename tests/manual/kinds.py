@@ -82,6 +82,7 @@ KINDS = {
     "Several drivers": (
         "five-bar",
         "mobility-five-bar",
+        "platform-3rrr",
     ),
     "Cylinders": (
         "cylinders-two",
@@ -153,6 +154,7 @@ KINDS = {
         "cam-fixed-lever",
         "cam-carried",
         "cam-tangent",
+        "valve-train",
         "geneva-dwell",
     ),
     "Forces": (

@@ -180,3 +180,9 @@ def test_the_range_of_check_leaves_out_lengths_of_the_other_sign(sign):
     pin = np.hypot(0.3, 0.2)
     ends = sorted([sign * (0.7 - pin), sign * (0.7 + pin)])
     assert closing(read_text(text, "boom")).ranges == [pytest.approx(ends, abs=1e-6)]
+
+
+def test_the_link_that_stands_for_a_cam_is_no_follower():
+    """The centre of curvature of a flat follower's cam jumps where the law changes."""
+    found = cycle(load("examples/scenes/valve-train.toml"), steps=12)
+    assert [each.name for each in followers(found)] == ["camshaft", "tappet", "rocker", "valve"]

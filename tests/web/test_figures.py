@@ -9,8 +9,9 @@ from msgspec.structs import replace
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.quantity import expression
-from graphkin.web.page_driver import figures
+from graphkin.web.page_driver import figures, of_drivers
 from tests.documents.sheet_tools import FOLDER, mechanism_named
+from tests.scene_files import FOLDER as SCENES
 from tests.web.test_moving import LABS, compared, marks_of, named, page_of
 from tests.web.written import ran
 
@@ -45,6 +46,12 @@ def led(mechanism: Mechanism, number: int, way: float) -> Mechanism:
     farther = expression(f"({place.text}) + {way * one!r}", place.unit, place.place)
     drivers[number] = replace(drivers[number], position=farther)
     return Mechanism(replace(scene, drivers=tuple(drivers)))
+
+
+def test_a_cylinder_is_dragged_by_steps_far_shorter_than_its_stroke():
+    """All lengths together are 2.9 m: steps of 1 mm, where a stroke is 300 mm."""
+    scene = load(SCENES / "motion/two-cylinders.toml").scene
+    assert [each.step for each in of_drivers(scene)] == [1, 1]
 
 
 @pytest.mark.parametrize(("name", "settings"), PARAMETERS)

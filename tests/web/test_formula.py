@@ -295,6 +295,13 @@ def test_what_is_no_line_of_formulas_is_refused(name: str) -> None:
         formula_of(scene_named(name))
 
 
+def test_a_formula_says_where_the_motion_takes_another_closure() -> None:
+    """A parallelogram keeps its side in the formula, and changes it in the motion."""
+    notes = formula_of(scene_named("four-bar-change-point")).notes
+    assert "The closure is that of the scene. Beyond phi_deg = 0, 180" in notes
+    assert not [*formula_of(scene_named("crank-rocker")).warnings()]
+
+
 def test_a_title_cannot_leave_its_comment(tmp_path: Path) -> None:
     text = (SCENES / "trammel.toml").read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("title")]

@@ -360,6 +360,34 @@ def test_a_free_crank_goes_all_the_way_round():
     assert (found.reach.low, found.reach.high) == (360.0, 720.0)
 
 
+def test_a_wheel_of_double_size_is_back_after_two_turns_of_the_driver():
+    """A page that began again after one would throw the wheel half a turn round.
+
+    Where the wheels need many turns, the page ends after one.
+    """
+    for teeth, turns, whole in ((36, 2, True), (45, 1, False)):
+        mechanism = load("examples/scenes/gears-pair.toml", z1=18, z2=teeth)
+        found = moving(mechanism, screen_sheets(mechanism))
+        assert found is not None
+        assert (found.reach.low, found.reach.high) == (0, 360 * turns)
+        assert found.reach.whole == whole
+
+
+def test_a_parallelogram_stays_one_through_its_change_points(page):
+    """The coupler keeps its direction all the way round."""
+    sheets, found = page_of("four-bar-change-point")
+    pins = {
+        mark.name: f"m0-{k}"
+        for k, mark in enumerate(sheets[0].left)
+        if isinstance(mark, CircleMark) and mark.cls == "pin"
+    }
+    for here in ran(page, found, [10, 170, 190, 350]):
+        (bx, by), (cx, cy) = (
+            [float(here["marks"][pins[p]][c]) for c in ("cx", "cy")] for p in "BC"
+        )
+        assert abs(by - cy) < LIMIT < cx - bx
+
+
 def test_a_plate_is_hidden_nowhere(page):
     """A polygon of a body shows at every place, for it is carried along."""
     sheets, _ = page_of("pump")

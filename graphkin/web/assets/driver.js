@@ -95,9 +95,11 @@ function place_driver(x) {
 
 /** The driver position meant by a number; an angle may differ by whole turns. */
 function meant(x) {
-  const { low, high, unit } = motion,
+  const { low, high, unit, whole } = motion,
+    circle = whole ? high - low : 360,
     off = x < low || x > high;
-  const turned = off && unit === "deg" ? x - 360 * Math.round((x - (low + high) / 2) / 360) : x;
+  const turned =
+    off && unit === "deg" ? x - circle * Math.round((x - (low + high) / 2) / circle) : x;
   return Math.min(Math.max(turned, low), high);
 }
 

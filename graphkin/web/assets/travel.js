@@ -32,7 +32,7 @@ function go_on(now) {
   const { low, high, whole, sense } = motion,
     time = Math.min(now - lately, 100);
   const end = sense > 0 ? high : low,
-    next = state.x + (sense * (high - low) * time) / (whole ? TURN : PASS);
+    next = state.x + sense * time * (whole ? 360 / TURN : (high - low) / PASS);
   travelling = requestAnimationFrame(go_on);
   if (whole || (end - state.x) * sense > 1e-9) {
     lately = now;
