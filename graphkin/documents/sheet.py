@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
+from functools import partial
 from itertools import islice
 
 from msgspec import Struct
@@ -807,17 +808,10 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     paper = drawing.paper
     left, top, _, low = paper.below
     left += 2
-    width = paper.writing - left - 2
+    found, more, wider = placed_tables(drawing, view)
+    width = paper.writing - wider - left - 2
     checks = [] if view == "task" else checked_lines(drawing, width)
     first = low + 0.4 - CLOSE * (len(checks) - 1)
-    own = paper.empty_tables if view == "task" else paper.tables
-    found, more = with_room(
-        drawing,
-        Moved.TABLES,
-        lambda: tables(drawing, own, empty=view == "task"),
-        paper.tables[0],
-        paper.tables[1] + 4.5,
-    )
     if view == "key":
         place = drawing, left, top + 10.5, width, first - 3.9
         try:
@@ -840,6 +834,27 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
         for i, text in enumerate(checks)
     ]
     return [*marks, *flattest_line(drawing, left + extent(checks[-1], LETTERS)[0])], moved, said
+
+
+WIDER = (0.0, 4.0, 8.0, 12.0, 16.0, 20.0, 24.0, 28.0)
+"""Extra widths of the tables beside sentences that are tried, in mm."""
+
+
+def placed_tables(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], float]:
+    """The tables, the part that does not fit, and how much wider than usual they are, in mm.
+
+    Tables beside the sentences of a key take some of their width where they need it.
+    """
+    paper, task = drawing.paper, view == "task"
+    left, *others = paper.empty_tables if task else paper.tables
+    where = paper.tables[0], paper.tables[1] + 4.5
+    for wider in WIDER[: 1 if task or paper.is_leaf else None]:
+        rect: Rect = (left - wider, others[0], others[1], others[2])
+        made = partial(tables, drawing, rect, empty=task)
+        found, moved = with_room(drawing, Moved.TABLES, made, *where)
+        if not moved:
+            return found, moved, wider
+    return found, moved, 0.0
 
 
 def below_tables(paper: SheetPaper, found: Sequence[Mark]) -> Rect | None:

@@ -92,3 +92,14 @@ def test_fields_that_are_lowered_leave_as_much_room_above_drawings_as_any_has(wh
         metres, top = drawing.scales.metres(drawing.kind), fields.plan.rect[1]
         assert fields.mechanism(1j * drawing.mechanism_extent().top)[1] >= top + ABOVE - 1e-6
         assert fields.plan(1j * drawing.plan_extent().top / metres)[1] >= top + ABOVE - 1e-6
+
+
+@pytest.mark.parametrize(("name", "teeth"), [("gears-planet", (30, 20)), ("gears-pair", (24, 40))])
+def test_gears_have_their_teeth_and_their_module_in_the_table(name, teeth):
+    """A module that all gears share has one column; the centres are said beside the table."""
+    (page, *_) = drawn_sheets(drawings(name, None), "key")[0].pages
+    cells = [m for m in page.marks if isinstance(m, Text) and m.name == NAME and m.cls == "table"]
+    below = {m.x: m.markup for m in cells if m.y == max(each.y for each in cells)}
+    columns = [(m.markup, below[m.x]) for m in cells if m.x in below and m.markup != below[m.x]]
+    assert [int(value) for head, value in columns if head.startswith("*z*_")] == [*teeth]
+    assert sum(head == "*m*" for head, _ in columns) == 1

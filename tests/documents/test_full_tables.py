@@ -5,6 +5,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 import shapely
+from msgspec.structs import replace
 
 from graphkin.construction.result_tables import (
     slide_rows,
@@ -13,12 +14,13 @@ from graphkin.construction.result_tables import (
     vector_rows,
 )
 from graphkin.documents.calculation import calculation
-from graphkin.documents.sheet import sheet
+from graphkin.documents.sheet import Moved, sheet, writing
 from graphkin.documents.sheet_documents import drawn_sheets
 from graphkin.drawing.columns import ColumnTable, Look, laid_out
 from graphkin.drawing.field import A3
-from graphkin.drawing.marks import LineMark, Mark, Text, reach
+from graphkin.drawing.marks import LineMark, Mark, Polyline, Text, reach
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.text import words
 from graphkin.text.errors import PageError
 from graphkin.text.tables import Row
 from tests.chosen import SPOKEN
@@ -149,3 +151,18 @@ def test_the_letters_of_a_triangle_leave_the_index_of_a_point_to_their_own():
     assert len(own & labels) >= 5  # one has no place near its point
     assert symbol("Q⁗_Q_left") == r"*Q*_{Q\_left}^{IV}"
     assert all("⁗" not in m.markup for m in page.marks if isinstance(m, Text))
+
+
+@pytest.mark.parametrize(
+    ("name", "language"),
+    [("shaper", "fr"), ("watt-1", "ru"), ("six-bar", "ru"), ("rapid-return-slider", "ru")],
+)
+def test_tables_take_width_of_the_sentences_before_they_leave_a_key(name, language):
+    for drawing in drawings(name, None):
+        told = replace(drawing, words=words(language))
+        written = writing(told, "key")
+        assert Moved.TABLES not in written.moved
+        boxes = [reach(m) for m in written.foot if reach(m)[1] < A3.tables[3]]
+        shades = [reach(m) for m in written.foot if isinstance(m, Polyline) and m.cls == "shade"]
+        edge = min(box[0] for box in shades)
+        assert all(box[2] < edge for box in boxes if box[0] < edge - 1)

@@ -18,7 +18,7 @@ from pypdfium2 import raw
 
 from graphkin.documents.calculation import calculation
 from graphkin.documents.sheet_documents import CALCULATED, drawn_sheets
-from graphkin.drawing.field import A3, A4_FRAME, A4_SIZE
+from graphkin.drawing.field import A3, A4_FRAME, A4_SIZE, paper_of
 from graphkin.drawing.marks import LineMark, Mark, Page, Polyline, Text
 from graphkin.text import words
 from graphkin.writers.pdf import write_pdf
@@ -102,9 +102,11 @@ def faults(pages: Sequence[Page]) -> Iterator[str]:
     for page, printed in zip(pages, document, strict=True):
         boxes = np.array([*boxes_of(printed, page.height)])
         at = boxes + SLACK
-        left, top, right, low = A4_FRAME if page.width == A4_SIZE[0] else A3.area
+        is_small, is_sheet = page.width == A4_SIZE[0], any(m.cls == "border" for m in page.marks)
+        area = paper_of("A4", "ISO").leaf.area if is_small else A3.area
+        left, top, right, low = area if is_sheet else A4_FRAME if is_small else A3.area
         inside = (at[:, :2] >= (left, top)).all(1) & (at[:, 2:] <= (right, low)).all(1)
-        if page.width > A4_SIZE[0]:  # the letters of a sheet's grid stand around its frame
+        if is_sheet or not is_small:  # the letters of a sheet's grid stand around its frame
             inner = (at[:, 2:] > (left, top)).all(1) & (at[:, :2] < (right, low)).all(1)
             outer = (at[:, :2] >= (left - OUTSIDE, top - OUTSIDE)).all(1)
             outer &= (at[:, 2:] <= (right + OUTSIDE, low + OUTSIDE)).all(1)

@@ -356,26 +356,38 @@ ROUNDED = 6
 
 
 def wheels(scene: Scene, words: Words) -> Iterator[str]:
-    """The wheels with centre and radius; for gears, number of teeth and module."""
+    """The wheels with centre and radius; of gears, whose numbers are apart, the centres."""
+    for name, sign, wheel in each_wheel(scene, words):
+        fields = {"k": name, "centre": symbol(wheel.centre)}
+        if wheel.teeth is None:
+            assert wheel.radius is not None
+            fields["r"] = of_wheel("r", sign)
+            fields["radius"] = after_parameter(scene, words, wheel.radius, "r")
+        key = "ring" if wheel.inside else "wheel"
+        yield words(f"page.{key}{'_teeth' if wheel.teeth else ''}", **fields)
+
+
+def each_wheel(scene: Scene, words: Words) -> Iterator[tuple[str, str, Wheel]]:
+    """The wheels of all links, each with its name and the label of its symbols."""
     for link in (scene.frame, *scene.links.values()):
         for wheel in link.wheels:
             sign = link.wheel_sign(wheel)
             name = words("page.fixed") if link.name == FRAME else escape(link.name)
-            yield words(
-                f"page.{'ring' if wheel.inside else 'wheel'}{'_teeth' if wheel.teeth else ''}",
-                **centre_and_size(scene, words, wheel, sign),
-                k=escape(sign) if len(link.wheels) > 1 else name,
-            )
+            yield escape(sign) if len(link.wheels) > 1 else name, sign, wheel
 
 
-def centre_and_size(scene: Scene, words: Words, wheel: Wheel, sign: str) -> dict[str, str]:
-    """The words for a wheel's centre and size, with its symbols."""
-    assert wheel.radius is not None
-    fields = {"centre": symbol(wheel.centre), "r": of_wheel("r", sign), "z": of_wheel("z", sign)}
-    if wheel.teeth is None:
-        return {**fields, "radius": after_parameter(scene, words, wheel.radius, "r")}
-    teeth = after_parameter(scene, words, wheel.teeth, "z")
-    return {**fields, "teeth": teeth, "module": module(scene, words, wheel)}
+def gears(scene: Scene, words: Words) -> Iterator[Datum]:
+    """The numbers of teeth of gears and their module, once where it is that of all."""
+    found = [(sign, wheel) for _, sign, wheel in each_wheel(scene, words) if wheel.teeth]
+    modules = {sign: module(scene, words, wheel) for sign, wheel in found}
+    for sign, wheel in found:
+        assert wheel.teeth is not None
+        teeth, by = wheel.teeth, tuple(filter(None, [lone(scene, wheel.teeth)]))
+        value = after_parameter(scene, words, teeth, "z")
+        yield Datum(name=of_wheel("z", sign), value=value, of=teeth, parameters=by)
+    alike = len({*modules.values()}) == 1
+    for sign, value in [*modules.items()][: 1 if alike else None]:
+        yield Datum(name="*m*" if alike else of_wheel("m", sign), value=value)
 
 
 def module(scene: Scene, words: Words, wheel: Wheel) -> str:
@@ -580,6 +592,7 @@ def data(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[D
             for piece in of_driver(scene, words, driver, solved=solved, laws=laws)
         ),
         *lengths(scene, words),
+        *gears(scene, words),
         *fixed_points(scene, words),
         *plates(drawing),
         *map(Datum, sentences),

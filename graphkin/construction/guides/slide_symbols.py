@@ -193,13 +193,17 @@ def draw_frame_guides(board: FieldContent, drawing: Drawing, field: Field) -> No
             board.marks.append(block(here, way, guideway.block, "slider"))
 
 
-def between_rails(drawing: Drawing, place: complex) -> bool:
-    """Whether a place is that of a block between the hatched sides of a guide of the frame."""
+def between_rails(drawing: Drawing, name: str) -> bool:
+    """Whether a pin is that of a block between the hatched sides of a guide of the frame.
+
+    It is judged at the position where places are chosen.
+    """
+    still = drawing.choosing
     return any(
         way.slide.on == FRAME
         and not (way.slide.pin or way.slide.rollers)
-        and abs(seat(drawing, way) - place) < drawing.reach * SAME
-        for way in drawing.standing.guideways
+        and abs(seat(still, way) - still.positions[name]) < still.reach * SAME
+        for way in still.standing.guideways
     )
 
 

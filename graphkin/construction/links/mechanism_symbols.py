@@ -281,7 +281,7 @@ def letter(board: FieldContent, drawing: Drawing, field: Field, name: str) -> No
     else:
         away = outward(drawing, field, name)
     radius = PIN + HINGE * max(0, sharers(drawing, name) - 2)
-    if between_rails(drawing, drawing.positions[name]):
+    if between_rails(drawing, name):
         radius = RAIL
     board.labels.append(
         Label(symbol(name), "", at, 3.5, name, away=away, priority=2, radius=radius)
