@@ -157,6 +157,8 @@ class MoveFinder:
         for number in sorted(self.values):
             self.move(number)
         self.more_picks()
+        shown = {Plane.MECHANISM, Plane.NUMBERS, *(drawing.plane for drawing in self.drawings)}
+        self.picks = {key: pick for key, pick in self.picks.items() if pick.plane in shown}
         along = {
             number: self.needs([number]) for number in self.protocol.at if number not in self.moves
         }

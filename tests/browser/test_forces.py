@@ -61,6 +61,9 @@ def test_a_student_draws_every_polygon(
     page = opened(page_of(run, tmp_path, name), f"#step={moves[0].at - 1}")
     page.locator("#turn").click()
     own = hand(page, sheets, turn)
+    assert {pick.name for pick in turn.picks.values() if pick.kind == "vector"} == {
+        turn.picks[move.inputs[1]].name for move in moves if move.action == "lay_off"
+    }
     for move in moves:
         said = own.draw(move)
         assert "right." in said or EN("turn.say.complete") in said, (move, said)
