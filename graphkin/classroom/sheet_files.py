@@ -10,7 +10,7 @@ from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.text.errors import Problem, SceneError, message
-from graphkin.web.step_page import Form, Tell, silent, step_page, task_page
+from graphkin.web.step_page import Form, Tell, force_page, silent, step_page, task_page
 from graphkin.web.your_turn import TurnOwner
 
 
@@ -52,9 +52,12 @@ def sheet_files(
             files |= rendered(own, part.kind, part.pages, kinds, ink, steps=steps)
     given = mechanism.scene.forces
     if "html" in kinds and view not in MOTION_VIEWS and given is not None and given.asked:
-        from graphkin.web.paper_page import force_page
+        if view == "task":
+            from graphkin.web.paper_page import force_task
 
-        page = force_page(mechanism, view, language, ink)
+            page = force_task(mechanism, language, ink)
+        else:
+            page = force_page(mechanism, language, ink, TurnOwner(f"{stem}-force"))
         files[f"{stem}-force-{view}.html"] = page.encode("utf-8")
     return files, notes
 

@@ -870,15 +870,19 @@ def below_tables(paper: SheetPaper, found: Sequence[Mark]) -> Rect | None:
     return paper.tables[0] + 2, top, paper.tables[2], low - 1
 
 
+def checked(drawing: Drawing) -> list[str]:
+    """The difference of the independent route; of forces one sentence for each route."""
+    if drawing.kind == FORCE:
+        from graphkin.documents.sentences import checked as checked_forces
+
+        return [*checked_forces(drawing)]
+    worst = drawing.words.significant(drawing.verdict.largest_difference, 2)
+    return [drawing.words("page.verified", difference=worst)]
+
+
 def checked_lines(drawing: Drawing, width: float) -> list[str]:
     """The difference of the independent route, in as few lines of a width as hold it."""
-    if drawing.kind == FORCE:
-        from graphkin.documents.sentences import checked
-
-        said = [*checked(drawing)]
-    else:
-        worst = drawing.words.significant(drawing.verdict.largest_difference, 2)
-        said = [drawing.words("page.verified", difference=worst)]
+    said = checked(drawing)
     lines = flowed(said, "; ", width, LETTERS)
     if all(extent(line, LETTERS)[0] <= width for line in lines):
         return lines

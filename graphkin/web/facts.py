@@ -21,13 +21,15 @@ SLIDES = {"velocity": "slide", "acceleration": "slide acceleration"}
 
 def results(drawing: Drawing, found: Mapping[str, int]) -> Iterator[CellTable]:
     """The tables of a sheet; ``found`` says at which step of the page each row is known."""
-    asked = asked_rows(drawing)
-    names = {f"slide {block}": name for name, block in blocks_asked(drawing).items()}
+    of_motion = drawing.kind in SLIDES
+    asked = asked_rows(drawing) if of_motion else frozenset()
+    blocks = blocks_asked(drawing) if of_motion else {}
+    names = {f"slide {block}": name for name, block in blocks.items()}
     for table in result_tables(drawing, empty=False):
         rows = [names.get(row.name, row.name) for row in table.rows]
         yield replace(
             table,
-            caption=drawing.words(f"screen.{table.kind}"),
+            caption=drawing.words(f"screen.{table.kind}") if of_motion else "",
             marks=[
                 {"data-row": name, "data-found": str(found[name])}
                 | ({"data-asked": True} if name in asked else {})

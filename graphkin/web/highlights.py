@@ -8,6 +8,7 @@ from graphkin.construction.centres.instant_centre import AccelerationPole
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import plan_vector
+from graphkin.construction.forces.force_drawing import ForceDrawing, balance_rows, sorted_sides
 from graphkin.construction.rate_relations import of_turning
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.step_pages import BODY
@@ -120,6 +121,11 @@ def rows_found(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[st
     found: dict[str, int] = {}
     for place, sheet in enumerate(sheets):
         last = protocol.bounds(place)[1]
+        if isinstance(sheet.drawing, ForceDrawing):
+            sides = sorted_sides(sheet.drawing)
+            found |= {row: protocol.at.get(step, last) for row, (_, step) in sides.items()}
+            found |= {row.name: last for row in balance_rows(sheet.drawing, empty=True)}
+            continue
         for row, step in steps_of_rows(sheet.drawing):
             is_given = not sheet.drawing.trace.program.steps[step].args
             found.setdefault(row, 0 if is_given else protocol.at.get(step, last))

@@ -1,4 +1,4 @@
-"""The web page of sheets of paper, one below the other: forces with their steps, a whole motion."""
+"""The web page of sheets of paper, one below the other: a whole motion, and the task of forces."""
 
 from __future__ import annotations
 
@@ -13,9 +13,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.web.offline_page import ink_sheet, offline_page, part
 from graphkin.writers.svg import element, number
 
-LOOK = """:root{--green:#1c6b2a;--brown:#8a4500}
-@media (prefers-color-scheme:dark){:root{--green:#7fd492;--brown:#f0b27a}}
-main{display:grid;gap:1rem;max-width:100rem;margin:0 auto;padding:1rem}
+LOOK = """main{display:grid;gap:1rem;max-width:100rem;margin:0 auto;padding:1rem}
 h1,h2{font-size:1rem}
 nav{display:flex;flex-wrap:wrap;gap:.2rem 1.2rem}
 a{color:var(--focus)}
@@ -23,19 +21,13 @@ section{min-width:0}
 section>div{overflow-x:auto}
 svg{display:block;width:100%;min-width:56rem;height:auto;background:var(--paper)}
 @media print{nav{display:none}section{break-after:page}svg{min-width:0}}"""
-"""The inks of forces, which no other page has, and the sheets one below the other."""
+"""The sheets one below the other."""
 
 
-def force_page(
-    mechanism: Mechanism, view: str = "key", language: str | None = None, ink: Ink = "colour"
-) -> str:
-    """The page of the forces of a scene that asks for them, in a view: key, steps or task.
-
-    Raises as hand_out does.
-    """
-    views = ("task",) if view == "task" else ("key", "steps")
-    sheets = (each for one in views for each in hand_out(mechanism, one, language))
-    return paper_page([page for each in sheets if each.kind == FORCE for page in each.pages], ink)
+def force_task(mechanism: Mechanism, language: str | None = None, ink: Ink = "colour") -> str:
+    """The page of the task of a scene that asks for forces. Raises as hand_out does."""
+    sheets = (each for each in hand_out(mechanism, "task", language) if each.kind == FORCE)
+    return paper_page([page for each in sheets for page in each.pages], ink)
 
 
 def motion_page(

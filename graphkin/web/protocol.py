@@ -164,6 +164,7 @@ STOPS = (
     Part.NORMAL,
     Part.ACCELERATION,
     Part.POLE,
+    Part.FORCE,
     Part.RESULT,
 )
 """The parts of the work whose beginnings a reader can jump to."""

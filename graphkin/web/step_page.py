@@ -9,15 +9,19 @@ from math import degrees, floor, log10
 from typing import TYPE_CHECKING
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data, given
+from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import name_of_sheet, scale_of
 from graphkin.construction.core.program import Part, PlanVector, Step, plan_vector
-from graphkin.construction.core.quantities import CENTRES
+from graphkin.construction.core.quantities import CENTRES, FORCE
+from graphkin.construction.forces.force_drawing import ForceLayout
 from graphkin.construction.result_tables import unread
 from graphkin.documents.scheme import scheme
-from graphkin.documents.sheet import HEADING, apart, asked_words, title_of
+from graphkin.documents.sheet import HEADING, apart, asked_words, checked, data_of, title_of
+from graphkin.documents.sheet_documents import drawn_of, language_of
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark
 from graphkin.drawing.style import BY_SIGN, Ink
@@ -45,7 +49,7 @@ from graphkin.web.offline_page import (
 from graphkin.web.page_driver import PageDriver, Reach, window
 from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
 from graphkin.web.reasons import NO_STEP
-from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
+from graphkin.web.screen_sheets import ScreenSheet, screen_sheet, screen_sheets
 from graphkin.web.your_turn import NOBODY, TurnOwner, palette, your_turn
 from graphkin.web.your_turn import record as turn_record
 from graphkin.writers.svg import number
@@ -67,6 +71,9 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
     yield words.signs.in_sentence("*k*_L"), words("legend.kL")
     for sheet in sheets:
         drawing = sheet.drawing
+        if drawing.kind == FORCE:
+            yield "*k*_F", words("legend.scale", plan=words("sheet.force"), unit=drawing.unit)
+            continue
         *signs, turning = PLANS[drawing.kind]
         scale, rate = map(drawing.in_signs, signs)
         unit = words(f"table.{drawing.kind}")
@@ -175,6 +182,7 @@ STOP_NAMES = {
     Part.NORMAL: "screen.normal",
     Part.ACCELERATION: "screen.acceleration",
     Part.POLE: "screen.pole",
+    Part.FORCE: "sheet.force",
 }
 """The labels of the buttons that jump to the parts of the work."""
 RATE_NAMES = {
@@ -237,11 +245,41 @@ def step_page(
     mechanism = mechanism.spoken(language).measured
     sheets = screen_sheets(mechanism, language)
     tell_unread(sheets, tell)
+    return page_of_steps(sheets, slider(mechanism, sheets), ink, owner)
+
+
+def force_page(
+    mechanism: Mechanism,
+    language: str | None = None,
+    ink: Ink = "colour",
+    owner: TurnOwner = NOBODY,
+) -> str:
+    """The page on which the forces of a scene that asks for them draw themselves.
+
+    Nothing moves in it. Raises as step_page does.
+    """
+    own = force_sheet(mechanism.spoken(language).measured, language)
+    return page_of_steps([own], Slider(), ink, owner)
+
+
+def force_sheet(mechanism: Mechanism, language: str | None = None) -> ScreenSheet:
+    """The sheet of forces, with the field of its first polygon as the frame of all of them."""
+    drawing = drawn_of(mechanism, language_of(mechanism, language))[-1]
+    layout = lay_out(drawing)
+    assert isinstance(layout, ForceLayout)
+    sheet = screen_sheet(drawing, layout)
+    first = replace(next(iter(layout.polygons.values())), rect=layout.plan.rect)
+    return replace(sheet, layout=replace(layout, plan=first))
+
+
+def page_of_steps(
+    sheets: Sequence[ScreenSheet], moves: Slider, ink: Ink, owner: TurnOwner = NOBODY
+) -> str:
+    """The page on which some sheets of one mechanism draw themselves, sentence by sentence."""
     protocol = telling(sheets)
-    moves = slider(mechanism, sheets)
     turn = your_turn(sheets, protocol)
     drawing = sheets[0].drawing
-    given_data = data(drawing)
+    given_data = data_of(drawing, "key") if drawing.kind == FORCE else data(drawing)
     found = rows_found(sheets, protocol)
     body = from_template(
         "web/templates/step.html",
@@ -266,9 +304,8 @@ def step_page(
             (
                 first,
                 last,
-                STOP_NAMES.get(
-                    stop, RATE_NAMES[sheets[protocol.said[first - 1].sheet].drawing.kind]
-                ),
+                STOP_NAMES.get(stop)
+                or RATE_NAMES[sheets[protocol.said[first - 1].sheet].drawing.kind],
             )
             for first, last, stop in protocol.stops()
         ],
@@ -388,12 +425,11 @@ def common(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
     """The parts common to all pages: title, words, and the result of the residual check."""
     drawing = sheets[0].drawing
     words = drawing.words
-    worst = words.significant(drawing.verdict.largest_difference, 2)
     return {
         "title": title_of(drawing),
         "words": words,
         "bar": BAR,
-        "verdict": words("page.verified", difference=worst),
+        "verdict": "; ".join(checked(drawing)),
     }
 
 

@@ -24,6 +24,8 @@ from graphkin.construction.core.vocabulary import (
     similar_point,
 )
 from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.forces.force_drawing import ForceLayout
+from graphkin.construction.forces.polygon import InPolygon, PolygonSide
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.registry import PALETTE, SAID_FIRST
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
@@ -37,8 +39,20 @@ from graphkin.web.protocol import PageProtocol
 from graphkin.web.screen_sheets import ScreenSheet
 from graphkin.writers.templates import marked_up
 
-PLANES = (Plane.MECHANISM, Plane.VELOCITIES, Plane.ACCELERATIONS, Plane.NUMBERS)
+PLANES = (
+    Plane.MECHANISM,
+    Plane.VELOCITIES,
+    Plane.ACCELERATIONS,
+    Plane.NUMBERS,
+    Plane.FORCES,
+)
 """The drawings, in the order of their numbers on the page."""
+PLANS = {
+    1: "sheet.velocity",
+    2: "sheet.acceleration",
+    4: "sheet.force",
+}
+"""The numbers of the plans, and the keys of their names."""
 LAID_OFF: tuple[Action, ...] = (lay_off, lay_back)
 """The actions that lay off a component of an acceleration from a point of a plan."""
 
@@ -122,8 +136,8 @@ class MoveFinder:
         self.protocol = protocol
         self.steps = self.drawings[0].trace.program.steps
         self.values: dict[int, Any] = {}
-        for drawing in self.drawings:
-            self.values |= drawing.trace.values
+        for sheet in sheets:
+            self.values |= values_on(sheet)
         self.moves: dict[int, PaletteMove] = {}
         self.picks: dict[str, Pick] = {}
         self.same: dict[int, int] = {}
@@ -143,6 +157,8 @@ class MoveFinder:
         for number in sorted(self.values):
             self.move(number)
         self.more_picks()
+        shown = {Plane.MECHANISM, Plane.NUMBERS, *(drawing.plane for drawing in self.drawings)}
+        self.picks = {key: pick for key, pick in self.picks.items() if pick.plane in shown}
         along = {
             number: self.needs([number]) for number in self.protocol.at if number not in self.moves
         }
@@ -256,7 +272,7 @@ class MoveFinder:
         needs = {need for pick in picks for need in pick.needs}
         if action == "divide":
             needs |= {*self.needs([self.share(number)])}
-        goal = bool(step.name) and step.plane is not Plane.NUMBERS
+        goal = step.plane is Plane.FORCES or (bool(step.name) and step.plane is not Plane.NUMBERS)
         at = self.sentence(number)
         self.moves[number] = PaletteMove(
             *(number, action, inputs, name, about, at, tuple(sorted(needs)), goal),
@@ -305,7 +321,7 @@ class MoveFinder:
 
     def by_move(self, move: Move, number: int, drawn: Step) -> Way | None:
         """A move with its inputs; None if this drawing has no such move or place."""
-        if move.in_plan and self.steps[number].plane not in PLANES[1:3]:
+        if move.in_plan and PLANES.index(self.steps[number].plane) not in PLANS:
             return None
         if move.action.shape == "point" and self.place(number) is None:
             return None
@@ -357,7 +373,7 @@ class MoveFinder:
                     return other
                 by = other
         else:
-            ends = isinstance(kind, LaidOff | LaidOffByRate) and not step.name
+            ends = isinstance(kind, LaidOff | LaidOffByRate | PolygonSide) and not step.name
             if ends and number not in self.moves:
                 by = self.point_or_line(step.args[0]) or ""
                 if not self.drawing(number).settled(abs(value - self.values[step.args[0]])):
@@ -476,7 +492,8 @@ class MoveFinder:
         if step.action in LAID_OFF:
             key, value = f"v{self.same.get(others[0], others[0])}", self.values[others[0]]
             component = construction(self.steps[others[0]])
-            name = component.symbol(drawing) if isinstance(component, Component) else ""
+            own = kind.vector_to(step.role) if kind is not None else ""
+            name = component.symbol(drawing) if isinstance(component, Component) else own
             ends = component.shown_between() if isinstance(component, Component) else ()
             on = tuple(end for end in ends if end in self.values and end is not None)
         elif isinstance(kind, LaidOffByRate):
@@ -539,6 +556,8 @@ class MoveFinder:
             vector = kind.component.symbol(drawing)
         elif isinstance(kind, LaidOffByRate):
             vector = kind.fields(drawing, step.role)["vector"]
+        elif kind is not None:
+            vector = kind.vector_to(step.role)
         if not vector:
             return ""
         tag = f" ({tag_words(step.aside.tag)})" if step.aside else ""
@@ -611,7 +630,34 @@ class MoveFinder:
             vector = drawing.symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
         elif isinstance(kind, AlongGuide):
             vector = kind.vector_along(drawing, number)
+        elif kind is not None:
+            vector = kind.vector_to(self.steps[number].role)
         return vector or drawing.words("turn.this_line")
+
+
+def values_on(sheet: ScreenSheet) -> dict[int, Any]:
+    """The values of a sheet's steps; those of each polygon of forces at its place in the field."""
+    values, layout = dict(sheet.drawing.trace.values), sheet.layout
+    if not isinstance(layout, ForceLayout):
+        return values
+    x, y = layout.plan(0j)
+    for number, step, value in sheet.drawing.steps(Plane.FORCES):
+        if isinstance(kind := construction(step), InPolygon):
+            u, v = layout.polygons[kind.polygon](0j)
+            shift = complex(u - x, y - v) / layout.plan.mm
+            values[number] = moved_by(value, shift)
+    return values
+
+
+def moved_by(value: Any, shift: complex) -> Any:
+    """A point, line or arrow, moved."""
+    match value:
+        case Line():
+            return Line(value.point + shift, value.along)
+        case Vector():
+            return Vector(value.tail + shift, value.tip + shift)
+        case _:
+            return value + shift
 
 
 def your_turn(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> YourTurn:
@@ -707,7 +753,7 @@ def record(
         "owner": [owner.stem, owner.id, owner.code],
         "seconds": seconds(sheets, turn),
         "shorter": turn.shorter,
-        "plans": [words(f"sheet.{kind}") for kind in ("velocity", "acceleration")],
+        "plans": {plan: words(key) for plan, key in PLANS.items()},
         "units": [words.unit(unit) for unit in ("m/s", "m/s²")],
         "fields": [
             [plane_of(sheet), *map(frame, (sheet.layout.mechanism, sheet.layout.plan))]

@@ -32,7 +32,10 @@ class DrawingHand(TurningHand):
         if move.action == "lay_off":
             start, vector = inputs
             self.press_on(f"#chips [data-pick='{vector}']")
-            return self.drag(self.spot(start, {"image"}), self.found(move))
+            self.drag(self.spot(start, {"image"}), self.found(move))
+            if self.page.locator("#which").is_visible():  # of a short vector both ends are near
+                self.press_on("#which button >> nth=0")
+            return self.said
         if move.action != self.tool:
             self.press_on(f"[data-action={move.action}]")
             self.tool = move.action
@@ -106,7 +109,7 @@ class TypingHand(TurningHand):
         """The shortest line for a move after those before it."""
         if move.action == "cut":
             return "x"
-        names = [self.typed(key) for key in move.inputs]
+        names = [self.typed(self.turn.picks[key].by or key) for key in move.inputs]
         if move.action in ("perpendicular", "parallel", "triangle"):
             word = "" if move.action == self.action else f"{PALETTE[move.action].typed[-1]} "
             self.action = move.action

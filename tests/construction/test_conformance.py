@@ -28,6 +28,7 @@ from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.program import Step
 from graphkin.construction.core.solution import Verdict
+from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.documents.force_fields import with_force_plan
 from graphkin.documents.relations import relations
 from graphkin.documents.scaling import sheet_motion
@@ -40,6 +41,7 @@ from graphkin.text import words
 from graphkin.web.protocol import parted_sentences, telling
 from graphkin.web.reasons import of_sentence, reasons
 from graphkin.web.screen_sheets import screen_sheets
+from graphkin.web.step_page import force_sheet
 from graphkin.web.your_turn import record as turn_record
 from graphkin.web.your_turn import your_turn
 from tests.chosen import CHOSEN, EVERY, FOLDER
@@ -251,9 +253,11 @@ def pages(name: str) -> object:
 
 
 def moves(name: str) -> object:
-    """What its page knows of the moves that a student makes."""
-    sheets = screen_sheets(mechanism(name), "en")
-    return turn_record(sheets, your_turn(sheets, telling(sheets)))
+    """What its pages know of the moves that a student makes."""
+    every = [screen_sheets(mechanism(name), "en")]
+    if isinstance(materials(name)[-1], ForceDrawing):
+        every.append([force_sheet(mechanism(name), "en")])
+    return [turn_record(sheets, your_turn(sheets, telling(sheets))) for sheets in every]
 
 
 COMES: tuple[Callable[[str], object], ...] = (

@@ -129,6 +129,10 @@ class Construction(Roles, frozen=True):
         """The length laid off at the step of a role; None for other roles."""
         return LaidLength(self.points[0], self.points[-1]) if role == self.laid_at else None
 
+    def vector_to(self, role: str) -> str:
+        """The vector that ends at the point of a role, or lies on its line; empty for others."""
+        return ""
+
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The sentence for a role's step that finds no point; empty for other roles."""
         return ""

@@ -189,7 +189,7 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
     words = drawing.words
     assert isinstance(drawing, ForceDrawing)
     rows = []
-    for name, size in sorted_sides(drawing):
+    for name, (size, _) in sorted_sides(drawing).items():
         cells = ("", "")
         if not empty:
             length = drawn_force(drawing, size)
@@ -208,7 +208,7 @@ def forces_asked(drawing: Drawing) -> Iterator[Relation]:
     forces = drawing.scene.forces
     assert isinstance(drawing, ForceDrawing) and forces is not None
     asked = {*reaction_names(drawing.scene, forces.reactions)}
-    for name, size in sorted_sides(drawing):
+    for name, (size, _) in sorted_sides(drawing).items():
         if name in asked:
             value = value_of(drawing.words, size, drawn_force(drawing, size))
             yield Relation(symbol(name), result=value, unit="N")
@@ -216,10 +216,10 @@ def forces_asked(drawing: Drawing) -> Iterator[Relation]:
         yield Relation(symbol(each.name), result=each.value, unit=each.unit, remark=each.sense)
 
 
-def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
-    """The whole reactions and driving forces of all polygons with their magnitudes, in order."""
-    found: dict[str, float] = {}
-    for step in drawing.trace.program.steps:
+def sorted_sides(drawing: ForceDrawing) -> dict[str, tuple[float, int]]:
+    """The whole reactions and driving forces of all polygons in order: magnitude, and its step."""
+    found: dict[str, tuple[float, int]] = {}
+    for number, step in enumerate(drawing.trace.program.steps):
         kind = step.of
         if isinstance(kind, ClosedByLines) and step.role == "corner":
             for name, tail, tip in (
@@ -227,12 +227,12 @@ def sorted_sides(drawing: ForceDrawing) -> list[tuple[str, float]]:
                 (kind.last, kind.end, kind.corner),
             ):
                 if "^" not in name:
-                    found[name] = side_size(drawing, tail, tip)
+                    found[name] = side_size(drawing, tail, tip), number
         elif isinstance(kind, ClosingReaction) and step.role == "arrow":
-            found[kind.name] = side_size(drawing, kind.tail, kind.tip)
+            found[kind.name] = side_size(drawing, kind.tail, kind.tip), number
         elif isinstance(kind, FOUND) and step.role == "force" and "^" not in kind.name:
-            found[kind.name] = drawing.settled(abs(drawing.trace.values[kind.force]))
-    return list(found.items())
+            found[kind.name] = drawing.settled(abs(drawing.trace.values[kind.force])), number
+    return found
 
 
 class DriverBalance(NamedTuple):

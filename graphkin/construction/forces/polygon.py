@@ -14,8 +14,16 @@ from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction, Slip
 from graphkin.construction.core.naming import TINY, way_of
+from graphkin.construction.core.palette import (
+    PARALLEL,
+    PERPENDICULAR,
+    KnownError,
+    Move,
+    Picks,
+    two,
+)
 from graphkin.construction.core.pen import Pen
-from graphkin.construction.core.program import OwnStep, Part, Plane
+from graphkin.construction.core.program import OwnStep, Part, Plane, Step
 from graphkin.construction.core.quantities import PAIR_REACTION, in_mm
 from graphkin.construction.core.relation import Relation, as_read
 from graphkin.construction.core.vocabulary import action, along_bar, join, lay_off, meet
@@ -37,13 +45,13 @@ def force_start() -> Point:
     return 0j
 
 
-@action("normal-to-guide")
+@action("normal-to-guide", move=Move(PERPENDICULAR, two, in_plan=True))
 def normal_to_guide(start: Point, guide: Line) -> Line:
     """The perpendicular to a guide through a point of the polygon."""
     return Line(start, 1j * guide.along)
 
 
-@action("along-guide")
+@action("along-guide", move=Move(PARALLEL, two, in_plan=True))
 def along_guide(start: Point, guide: Line) -> Line:
     """The parallel to a guide through a point of the polygon."""
     return Line(start, guide.along)
@@ -110,6 +118,10 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
     force: int
     corner: OwnStep
 
+    def vector_to(self, role: str) -> str:
+        """The force."""
+        return symbol(self.name)
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the force, unless it is zero."""
         if not canvas.drawing.settled(abs(canvas.value(self.force))):
@@ -157,6 +169,21 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     corner: OwnStep
     bars: tuple[str, str] = ("", "")
     cam: bool = False
+
+    def vector_to(self, role: str) -> str:
+        """The side along a line; at the corner the side that ends there."""
+        return symbol(self.first if role == "one" else self.last)
+
+    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """The side of a block along its guide, or across the bar along which it acts."""
+        for line, way in zip((self.one, self.other), self.ways, strict=True):
+            start, *ends = steps[line].args
+            if way.guide is None:
+                given = picks.point_or_line(start), picks.bar(*ends)
+                yield KnownError("turn.wrong.across_bar", line, PERPENDICULAR, given)
+            elif not way.along:
+                given = picks.point_or_line(start), picks.point_or_line(ends[0])
+                yield KnownError("turn.wrong.along_guide", line, PARALLEL, given)
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw both lines, and where they meet both closing sides."""

@@ -22,6 +22,8 @@ export const {
   value_of,
   plane_of,
   results_of,
+  choices_of,
+  likewise,
   same_value,
   shape_of,
 } = palette_of(turning, () => true, { ACTIONS, drawn_by });

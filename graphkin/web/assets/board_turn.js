@@ -6,6 +6,8 @@ export {
   action_name,
   add_line,
   CHOICE,
+  choices_of,
+  likewise,
   cross,
   dot,
   is_there,

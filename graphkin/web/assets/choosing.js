@@ -3,6 +3,8 @@ import { byId } from "#page";
 import {
   check_move,
   CHOICE,
+  choices_of,
+  likewise,
   picks,
   plane_of,
   results_of,
@@ -20,10 +22,10 @@ export function draw_move() {
     plane = plane_of(action, given);
   const found = results_of(action, given);
   const apart = action === "cut" && picks[given[0]].plane !== picks[given[1]].plane;
-  const is_choice = CHOICE.includes(action) && found.length > 1 && !apart;
-  if (is_choice && !all_alike(action, found, plane)) {
+  const choices = different(action, choices_of(action, given), plane);
+  if (CHOICE.includes(action) && choices.length > 1 && !apart) {
     const at_keys = keys_within();
-    turn.asked = Object.assign(different(action, found, plane), { plane, given });
+    turn.asked = Object.assign(choices, { plane, given });
     tell_turn(worded("which"));
     show_picks();
     if (at_keys) byId("which").querySelector("button").focus({ preventScroll: true });
@@ -32,17 +34,15 @@ export function draw_move() {
   check_move(action, given, found, plane);
 }
 
-export const all_alike = (action, found, plane) =>
-  found.every(one => same_value(action, one, found[0], plane));
 export const different = (action, found, plane) =>
   found.filter((one, i) => found.findIndex(other => same_value(action, one, other, plane)) === i);
 
 /** Go on with the result that the student has chosen out of two. */
 export function settle_which(which) {
   const { given, plane } = turn.asked,
-    found = [turn.asked[which]];
-  const other = turn.asked[1 - which],
-    { action } = turn;
+    { action } = turn,
+    found = likewise(action, given, turn.asked[which]),
+    other = turn.asked[1 - which];
   if (keys_within()) byId("inputs").querySelector("select").focus({ preventScroll: true });
   turn.asked = null;
   check_move(action, given, found, plane, other);

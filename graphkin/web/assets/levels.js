@@ -3,18 +3,17 @@ import { html_element } from "./elements.js";
 import { byId } from "./page.js";
 import { all_done, moves, ORDER, picks, turn, turning, worded } from "./turn_state.js";
 
-const PLANS = [1, 2]; // the drawings that are levels of their own
 const goals_in = plane => ORDER.filter(step => moves[step].goal && moves[step].plane === plane);
 
 /** The goals of each level: the first point that is found in a plan, and the points of each plan. */
 const all_levels = () =>
   [
-    ...PLANS.slice(0, 1).map(plane => ({
-      goals: goals_in(plane)
+    {
+      goals: goals_in(1)
         .filter(step => moves[step].action !== "lay_off")
         .slice(0, 1),
-    })),
-    ...PLANS.map(plane => ({ goals: goals_in(plane), plan: plane })),
+    },
+    ...Object.keys(turning.plans).map(plan => ({ goals: goals_in(Number(plan)), plan })),
   ].filter(({ goals }) => goals.length);
 
 /** The moves that lead to some goals from what a turn began with, by the ways given for them. */
@@ -43,7 +42,7 @@ function level_of({ goals, plan }) {
     number = made.length + turn.lines.length;
   const reached = all_done(goals),
     exact = made.every(({ how, wrong }) => how === "alone" && !wrong);
-  const name = plan ? turning.plans[plan - 1] : moves[goals[0]].name;
+  const name = plan ? turning.plans[plan] : moves[goals[0]].name;
   return {
     name,
     fewest,

@@ -5,6 +5,8 @@ export { tell_hint } from "./hints.js";
 export {
   action_name,
   CHOICE,
+  choices_of,
+  likewise,
   cross,
   dot,
   is_letter,

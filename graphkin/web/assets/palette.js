@@ -162,8 +162,8 @@ export function palette_of(record, all_done, { ACTIONS, drawn_by }) {
     return plane ?? picks[inputs[lies_with]].plane;
   }
 
-  /** The results of an action, also from undrawn points that share the pick of a nearby point. */
-  function results(action, inputs) {
+  /** The results of an action, way by way: from its inputs, and from undrawn points that share the pick of a nearby point. */
+  function results_by_way(action, inputs) {
     const alike = inputs.map(key => [
       key,
       ...Object.keys(picks).filter(
@@ -174,9 +174,17 @@ export function palette_of(record, all_done, { ACTIONS, drawn_by }) {
       (found, keys) => found.flatMap(one => keys.map(key => [...one, key])),
       [[]],
     );
-    return ways
-      .flatMap(way => DRAW[action](...way))
-      .filter(value => flat(value).every(Number.isFinite));
+    const is_finite = value => flat(value).every(Number.isFinite);
+    return ways.map(way => DRAW[action](...way).filter(is_finite));
+  }
+
+  const results = (action, inputs) => results_by_way(action, inputs).flat();
+
+  /** The results that stand in each way where a result stands in the first one: they look alike. */
+  function likewise(action, inputs, value) {
+    const [first, ...others] = results_by_way(action, inputs),
+      place = first.findIndex(one => flat(one).every((part, i) => part === flat(value)[i]));
+    return [value, ...others.map(way => way[place]).filter(Boolean)];
   }
 
   const flat = value => (value.r === undefined ? value.flat() : [...value.c, value.r]);
@@ -185,7 +193,7 @@ export function palette_of(record, all_done, { ACTIONS, drawn_by }) {
   const shape_of = action => ACTIONS[action]?.[0] ?? "point";
 
   /** The size of each drawing. */
-  const sizes = [0, 1, 2, 3].map(plane =>
+  const sizes = [0, 1, 2, 3, 4].map(plane =>
     Math.max(
       1e-12,
       ...steps
@@ -232,6 +240,8 @@ export function palette_of(record, all_done, { ACTIONS, drawn_by }) {
     value_of,
     plane_of,
     results_of: results,
+    choices_of: (action, inputs) => results_by_way(action, inputs)[0],
+    likewise,
     same_value: same,
     on_line,
     shape_of,

@@ -2,9 +2,11 @@
 import {
   check_move,
   CHOICE,
+  choices_of,
   dot,
   is_there,
   length_of,
+  likewise,
   minus,
   NUMBERS_PLANE,
   picks,
@@ -18,7 +20,7 @@ import {
   turning,
   value_of,
 } from "#turn";
-import { all_alike, different, settle_which } from "./choosing.js";
+import { different, settle_which } from "./choosing.js";
 import { named_from } from "./palette.js";
 import { end_magnifying, magnify } from "./magnifier.js";
 import { far_from, placed, shown_at } from "./pick_shapes.js";
@@ -140,12 +142,10 @@ function aim_of({ key, cross, value }, taken) {
  * @param {Way} way
  * @returns {Result[]}
  */
-function choices_of({ action, inputs }) {
-  const found = results_of(action, inputs),
-    plane = plane_of(action, inputs);
-  return CHOICE.includes(action) && found.length > 1 && !all_alike(action, found, plane)
-    ? different(action, found, plane)
-    : [];
+function choices_for({ action, inputs }) {
+  const found = CHOICE.includes(action) ? choices_of(action, inputs) : [],
+    values = different(action, found, plane_of(action, inputs));
+  return values.length > 1 ? values : [];
 }
 
 /**
@@ -158,7 +158,7 @@ function pressed_aim(spot) {
     way = whole_way(aim.ways);
   if (!moved) return aim;
   if (!way) return spot && (aim_at(spot, [...turn.taken, aim.key]) ?? { band: [aim.key, spot] });
-  const values = aim.value ? [] : choices_of(way);
+  const values = aim.value ? [] : choices_for(way);
   if (values.length < 2) return spot && aim_at(spot, turn.taken); // slid to something else
   const far = value =>
     length_of(minus(spot.at, placed(plane_of(way.action, way.inputs), value)?.at ?? spot.at));
@@ -281,8 +281,9 @@ function settle_aim(aim) {
   turn.taken = way.inputs;
   [turn.action, turn.inputs] = [way.action, way.inputs];
   const plane = plane_of(way.action, way.inputs);
-  const other = choices_of(way).find(one => !same_value(way.action, one, aim.value, plane));
-  check_move(way.action, way.inputs, [aim.value], plane, other);
+  const other = choices_for(way).find(one => !same_value(way.action, one, aim.value, plane));
+  const found = likewise(way.action, way.inputs, aim.value);
+  check_move(way.action, way.inputs, found, plane, other);
 }
 
 /**

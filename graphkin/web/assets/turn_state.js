@@ -40,6 +40,8 @@ export const {
   value_of,
   plane_of,
   results_of,
+  choices_of,
+  likewise,
   same_value,
   on_line,
   shape_of,

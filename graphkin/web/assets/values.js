@@ -7,7 +7,7 @@ import { places } from "./sentences.js";
 import { here, sheets } from "./sheets.js";
 
 /** The column of the size in each kind of table. */
-const PLACE = { vectors: 3, turns: 1, slides: 1 };
+const PLACE = { vectors: 3, turns: 1, slides: 1, sides: 2, balance: 1 };
 
 /** Write a value into a row, by kind of table. */
 const TOLD = {
