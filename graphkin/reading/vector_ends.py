@@ -226,7 +226,9 @@ def vector_end(
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
     doubled = (at_tail and not turned) or ((along_line or shared) and elsewhere and head is None)
     only = here >= LIKELY and here > max(float(steady(there).max()), unsure) + LEAD
-    ended = bool(here >= OWN or only or (marked and (plain or (crowded and here >= LIKELY))))
+    passed = steady(np.where(abs(along - long) <= CLEAR, share, -1.0)).max() >= HEADED > here
+    alone = marked and not passed and (plain or (crowded and here >= LIKELY))
+    ended = bool(here >= OWN or only or alone)
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)
     beyond = drawn(ink, tip, way, BEYOND, pale)

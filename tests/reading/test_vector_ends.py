@@ -198,3 +198,8 @@ def heads_of(tip: complex, long: float) -> Strokes:
     """A slim head, filled with strokes from its tip."""
     turns = np.radians(np.arange(-12, 12.1, 3))
     return [(tip, tip - long * WAY * np.exp(1j * turn)) for turn in turns]
+
+
+def test_a_head_just_beyond_the_point_is_not_its_own() -> None:
+    """The construction line hides the stroke, and a ring marks the point that was passed."""
+    assert not read([*vector(TAIL, TIP + 3.1 * WAY), *LINE, *RING], along=True).is_there
