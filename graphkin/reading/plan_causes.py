@@ -17,13 +17,16 @@ from graphkin.reading.vector_ends import OWN, RINGS, SHORTEST, heads_at, is_mark
 from graphkin.text import Words
 
 DRAWN, LEAST = 0.9, 0.7
-"""The drawn share of all vectors of a plan together, and of each of them, that shows a cause."""
+"""The drawn share of all vectors of a plan together, and of each of them, that shows a cause.
+
+A plan of which the share LEAST is drawn where the key has it has none.
+"""
 ENDED = 0.75
 """The share of the vectors that must have a head or a marked point at their tip."""
 MOVED = 3.0
 """A cause moves a point of the plan by at least this many mm."""
-FEWEST = 3
-"""A cause is seen on at least so many vectors."""
+FEWEST, SEEN = 3, 0.5
+"""A cause is seen on at least so many vectors, and on this share of those of the plan."""
 EQUAL, STRAIGHT = 0.03, 1.5
 """A plan is scaled or turned where its factor differs by more from 1, its turn by more degrees."""
 
@@ -101,16 +104,19 @@ def similarity_of(
 ) -> Similarity | None:
     """The similarity at which the vectors of a plan are all drawn; None without one.
 
-    ``places`` are where a vector from the pole may end.
+    ``places`` are where a vector from the pole may end. A plan most of which is drawn where the
+    key has it has no cause.
     """
     long = [shaft for shaft in shafts if abs(shaft[1] - shaft[0]) > SHORTEST]
+    if not long or sum(ink.cover(*shaft, 0.6) for shaft in long) > LEAST * len(long):
+        return None
     tips = [tip for tail, tip in long if abs(tail - pole) < 1e-6]
     best, most = None, DRAWN
     for each in similarities(pole, tips, places):
         drawn = [(each(tail), each(tip)) for tail, tip in long]
         drawn = [(tail, tip) for tail, tip in drawn if abs(tip - tail) > SHORTEST]
         moved = max((abs(each(tip) - tip) for _, tip in long), default=0.0)
-        if len(drawn) < FEWEST or moved < MOVED:
+        if len(drawn) < max(FEWEST, SEEN * len(long)) or moved < MOVED:
             continue
         total = 0.0
         for tail, tip in drawn:

@@ -290,8 +290,9 @@ class SheetSearch:
             return folded if first.refused or folded.residual < LESS * first.residual else first
         if not first.refused:
             return first
-        for bent, faint in ((max(RINGS), False), (BENT_FROM, True)):  # bending misled it
-            other = self.fitted(page, bent, faint=faint)
+        late = max(RINGS), False, False
+        for bent, faint, creased in (late, (BENT_FROM, True, False), (BENT_FROM, True, True)):
+            other = self.fitted(page, bent, faint=faint, creased=creased)
             if other is not None and not other.refused:
                 return other
         return first

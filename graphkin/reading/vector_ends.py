@@ -20,6 +20,8 @@ SIDES = np.arange(1.5, 3.0, 0.15)
 """Distances in mm from an arrowhead's tip at which both its sides are examined."""
 BARE = np.arange(4.0, 5.6, 0.2)
 """Distances in mm behind a tip at which only the shaft is drawn."""
+LARGE = 1.8
+"""How many times larger some hands draw their heads, which are then slimmer."""
 ASIDE = 0.55
 """How far beside the bare shaft nothing is drawn, in mm."""
 SWERVES = 0.75
@@ -34,9 +36,6 @@ OWN = 0.75
 """The least share of the head at a point that counts as the end of its vector without a doubt."""
 RINGS, PINS, ROUND = np.arange(0.7, 1.05, 0.1), np.arange(0.7, 1.45, 0.1), 0.86
 """Radii in mm of the rings of points and of pins; the least share of one that is drawn."""
-SECTOR, LEAST_TURNS = np.radians(50.0), 6
-"""Half the sector about a vector's shaft that its head may fill; the least directions that remain.
-"""
 FADED = 0.2
 """The darkness from which a ring counts as drawn where lines are crowded and fade each other."""
 ASTRAY = 0.3
@@ -46,6 +45,8 @@ TURNED, PLAIN, LIKELY = 0.65, 0.63, 0.6
 
 LIKELY is the least share of a head at a marked point whose vector begins where other heads are.
 """
+LEAD = 0.1
+"""By how much a likely head at a point must lead all others on its vector to count as its own."""
 BESIDE = np.radians(20.0)
 """At a lesser angle, the head of another vector to the same point looks like a vector's own."""
 WHOLE = 0.9
@@ -116,28 +117,33 @@ class VectorEnd(Struct, frozen=True):
 
 
 def heads(
-    ink: DrawnInk, places: Any, way: complex, pale: float = COVERED, lines: Any = ONE_WAY
+    ink: DrawnInk,
+    places: Any,
+    way: complex,
+    pale: float = COVERED,
+    lines: Any = ONE_WAY,
+    size: float = 1.0,
 ) -> Any:
     """The drawn share of an arrowhead with its tip at each place, pointing along ``way``.
 
     The weaker of both sides counts, less what is drawn beside the shaft behind the head. A side
     that goes on behind the head, turned by one of the angles ``lines``, is another line. Ink darker
-    than ``pale`` counts as drawn.
+    than ``pale`` counts as drawn. The head is ``size`` times as large as usual.
     """
     best = np.zeros(len(places))
-    for barb in BARBS:
+    for barb in BARBS / np.sqrt(size):
         sides = []
         for turn in (np.exp(1j * barb), np.exp(-1j * barb)):
-            dark, known = ink.at(places[:, None] - way * SIDES * turn)
+            dark, known = ink.at(places[:, None] - size * way * SIDES * turn)
             seen = np.maximum(known.sum(axis=1), 1)
             enough = known.mean(axis=1) > 0.5
-            behind = places[:, None, None] - way * turn * lines[:, None] * PAST
+            behind = places[:, None, None] - size * way * turn * lines[:, None] * PAST
             past = (ink.at(behind.reshape(len(places), -1))[0] > pale).reshape(behind.shape)
             enough &= past.mean(axis=2).max(axis=1) < GOES_ON
             sides.append(((dark > pale) * known).sum(axis=1) / seen * enough)
         best = np.maximum(best, np.minimum(*sides))
     bare = [
-        (ink.at(places[:, None] - way * (BARE + side * ASIDE))[0] > pale).mean(axis=1)
+        (ink.at(places[:, None] - way * (size * BARE + side * ASIDE))[0] > pale).mean(axis=1)
         for side in (1j, -1j)
     ]
     return best - np.minimum(*bare)
@@ -185,15 +191,18 @@ def vector_end(
     dark = float(np.median(shaft[known > 0])) if known.any() else 1.0
     pale = float(np.clip(PALE * dark, COVERED * PALE, COVERED))
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
-    share = heads(ink, on_shaft(ink, tail + along * way, way), way, pale)
-    here = float(share[abs(along - long) <= NEAR].max())
-    marked = is_marked(ink, tip, RINGS, FADED, [-way, *(-each for each in beside)])
+    at_shaft = on_shaft(ink, tail + along * way, way)
+    share, near = heads(ink, at_shaft, way, pale), abs(along - long) <= NEAR
+    here = float(share[near].max())
+    large = float(heads(ink, at_shaft[near], way, pale, size=LARGE).max())
+    marked = is_marked(ink, tip, RINGS, FADED)
     others = [(each - tail) / way for each in others]
     shared = any(
         o.real > long + NEAR and abs(o.imag) < NEAR + LEANING * (o.real - long) for o in others
     )
     alike = any(abs(np.angle(each / way)) < BESIDE for each in beside)
-    free = abs(along - long) > CLEAR
+    free = abs(along - long) > (CLEAR * LARGE if large >= OWN else CLEAR)
+    here = max(here, large)
     for other in others:
         free &= abs(along - other) > FREE
     there = np.where(free, share, -1.0)
@@ -216,7 +225,10 @@ def vector_end(
     at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
     doubled = (at_tail and not turned) or ((along_line or shared) and elsewhere and head is None)
-    ended = bool(here >= OWN or (marked and (plain or (crowded and here >= LIKELY))))
+    only = here >= LIKELY and here > max(float(steady(there).max()), unsure) + LEAD
+    passed = steady(np.where(abs(along - long) <= CLEAR, share, -1.0)).max() >= HEADED > here
+    alone = marked and not passed and (plain or (crowded and here >= LIKELY))
+    ended = bool(here >= OWN or only or alone)
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)
     beyond = drawn(ink, tip, way, BEYOND, pale)
@@ -262,25 +274,14 @@ def bar_runs_on(ink: DrawnInk, tail: complex, tip: complex, others: list[complex
     return runs_on and not is_marked(ink, tip, PINS)
 
 
-def is_marked(
-    ink: DrawnInk,
-    place: complex,
-    radii: Any,
-    pale: float = COVERED,
-    ends: Sequence[complex] = (),
-) -> bool:
+def is_marked(ink: DrawnInk, place: complex, radii: Any, pale: float = COVERED) -> bool:
     """Whether a dot or a ring of one of some radii (mm) is drawn about a place.
 
-    Ink darker than ``pale`` counts as drawn. What lies towards ``ends``, directions in which
-    vectors come from, may be their heads and is left out.
+    Ink darker than ``pale`` counts as drawn.
     """
     near = np.arange(-ASTRAY, ASTRAY + 0.01, 0.15)
     middles = (place + near[:, None] + 1j * near[None, :]).ravel()
     turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
-    for end in ends:
-        turns = turns[abs(np.angle(turns / end)) > SECTOR]
-    if turns.size < LEAST_TURNS:
-        return False
     rings = middles[:, None, None] + radii[:, None] * turns
     dark, known = ink.at(rings.reshape(len(middles), -1))
     seen = (known > 0).reshape(rings.shape)

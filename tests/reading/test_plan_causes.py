@@ -54,6 +54,15 @@ def test_a_right_plan_and_one_that_lacks_a_vector_have_no_cause() -> None:
     assert found(CASES["halved"], lacking=1) is None
 
 
+def test_a_right_plan_with_a_small_one_on_it_has_no_cause() -> None:
+    """A point was misread where letters look like a plan of a tenth of the size."""
+    right = Similarity(POLE, 1 + 0j, False)
+    small = Similarity(POLE, cmath.rect(0.4, 1.2), False)
+    assert found(small) is not None
+    ink = ink_of(*strokes(small), *strokes(right, lacking=1))
+    assert similarity_of(ink, SHAFTS, POLE, [small(TIPS[0])]) is None
+
+
 def test_the_cause_is_said_in_the_readers_language() -> None:
     half, turned = PlanCause(0.5, 0.0), PlanCause(1.0, -30.0)
     assert list(half.sentences(words("en"))) == ["The whole plan is drawn at 0.50 times its size"]

@@ -11,8 +11,8 @@ import pytest
 
 from graphkin.construction.core.program import Plane
 from graphkin.drawing.marks import Text
-from graphkin.reading.drawn_ink import DrawnInk
-from graphkin.reading.point_letters import FLOOR, INKED, letters_near, straight
+from graphkin.reading.drawn_ink import DENSITY, DrawnInk
+from graphkin.reading.point_letters import FLOOR, INKED, letters_near, pieces, straight
 from graphkin.reading.point_reader import PointReader
 from graphkin.reading.point_reading import PointReading, pair
 from tests.reading.hand_letters import Writing, written
@@ -109,3 +109,33 @@ def test_the_stem_of_a_tall_letter_is_no_line(long: float, *, gone: bool) -> Non
 
 def test_points_without_letters_are_not_asked() -> None:
     assert not any(each.ask for each in compared(ink_of(*LINES)))
+
+
+def test_a_prime_makes_no_other_letter() -> None:
+    """The prime stands close to an a, where the stem of a d is; the stem is a part of the d."""
+    bowl = [
+        (1.2 * np.exp(1j * turn), 1.2 * np.exp(1j * (turn + 0.3)))
+        for turn in np.arange(0, 6.3, 0.3)
+    ]
+    for stem, parts in ((1.0, 1), (3.6, 2)):
+        upright = (2.0 - 1.4j, 2.0 + (stem - 1.4) * 1j)
+        ink = ink_of(*((POINT + a, POINT + b) for a, b in [*bowl, upright]))
+        x, y = (
+            round((POINT.real - ink.paper.fields[0]) * DENSITY),
+            round((POINT.imag - ink.paper.fields[1]) * DENSITY),
+        )
+        found = [box for box, _ in pieces(ink.dark[y - 60 : y + 60, x - 60 : x + 60])]
+        wide = [box for box in found if box[2] > 3.0 * DENSITY]
+        assert len(wide) == parts - 1
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_specks_of_the_paper_do_not_join_letters_to_lines(seed: int) -> None:
+    """Specks are darker than half a letter where the pencil is pale."""
+    ink = beside("b", seed)
+    rng = np.random.default_rng(seed)
+    specks = 0.55 * (rng.random(ink.dark.shape) < 0.15).astype(np.float32)
+    pale = DrawnInk(np.maximum(ink.dark, specks), ink.known, ink.sway, ink.paper)
+    likely = letters_near(pale, POINT, LETTERS)
+    clean = letters_near(ink, POINT, LETTERS)
+    assert likely["b"] > clean["b"] / 3

@@ -184,3 +184,22 @@ def test_a_stroke_beside_its_line_is_no_side_of_a_head() -> None:
     crossing = (swerved - 20 * across, swerved + 20 * across)
     line = [(TIP, swerved), (swerved, swerved + 30 * (swerved - TIP) / abs(swerved - TIP))]
     assert read([(TAIL, TIP), *RING, *line, crossing], along=True).head is None
+
+
+@pytest.mark.parametrize("long", [1.0, 1.8])
+def test_a_head_is_read_in_the_size_of_the_hand(long: float) -> None:
+    """A filled head of twice the size has no second head farther back on its shaft."""
+    tip = heads_of(TIP, long * 3.2)
+    line = [(TAIL, TIP + 50 * WAY)]
+    assert read([(TAIL, TIP), *tip, *line], along=True).is_there
+
+
+def heads_of(tip: complex, long: float) -> Strokes:
+    """A slim head, filled with strokes from its tip."""
+    turns = np.radians(np.arange(-12, 12.1, 3))
+    return [(tip, tip - long * WAY * np.exp(1j * turn)) for turn in turns]
+
+
+def test_a_head_just_beyond_the_point_is_not_its_own() -> None:
+    """The construction line hides the stroke, and a ring marks the point that was passed."""
+    assert not read([*vector(TAIL, TIP + 3.1 * WAY), *LINE, *RING], along=True).is_there
