@@ -40,6 +40,7 @@ from graphkin.scene.model import StatedPositions
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
+from tests.chosen import by_turns
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
@@ -317,8 +318,7 @@ def test_the_mechanical_advantage_balances_the_power():
 # --- all kinds of mechanisms ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", DRAWN)
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("name", "language"), by_turns(DRAWN, LANGUAGES))
 def test_diagrams_stay_on_the_page_in_every_language(name: str, language: str):
     found = sheets(name, language)
     assert "courses" in found

@@ -20,7 +20,7 @@ from graphkin.scene.model import StatedPositions
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import SceneError
-from tests.chosen import FOLDER
+from tests.chosen import FOLDER, by_turns
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
@@ -190,8 +190,7 @@ def test_every_moving_pin_has_its_number_at_every_position(name: str):
     assert pins <= {*told}
 
 
-@pytest.mark.parametrize("name", DRAWN)
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("name", "language"), by_turns(DRAWN, LANGUAGES))
 def test_a_sheet_stays_within_its_frame_in_every_language(name: str, language: str):
     for page in pages(mechanism_named(name), language).values():
         page.check()
