@@ -9,6 +9,7 @@ import os
 from collections.abc import Iterable, Sequence
 from itertools import cycle, islice, product
 from pathlib import Path
+from typing import Any
 from zlib import crc32
 
 from graphkin.text import LANGUAGES
@@ -68,7 +69,7 @@ def spoken_by(name: str) -> tuple[str, ...]:
     return LANGUAGES if EVERY else (LANGUAGES[number_of(name) % len(LANGUAGES)],)
 
 
-def by_turns(*lists: Sequence[str]) -> list[tuple[str, ...]]:
+def by_turns(*lists: Sequence[Any]) -> list[tuple[Any, ...]]:
     """Each of every list at least once, with the others by turns; every combination with
     ``EVERY=1``.
     """

@@ -24,6 +24,7 @@ from tests.chosen import FOLDER, by_turns
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
+from tests.scene_files import scene_text
 
 DRAWN = ("crank-rocker", "shaper", "cam-roller", "cam-lever", "gears-planet", "five-bar")
 
@@ -228,24 +229,7 @@ def test_the_longest_plan_decides_one_scale_for_all():
     assert lengths == pytest.approx([lengths[0]] * 12, rel=1e-9)
 
 
-SCENE = """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 2
-[links.2]
-A-B = 5
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 40
-speed = 3
-[branches]
-3 = "forward"
-[positions]
-"""
+SCENE = scene_text("documents/slider-crank") + "[positions]\n"
 
 
 def test_all_mistakes_of_positions_are_told_at_once():
