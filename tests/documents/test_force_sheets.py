@@ -47,6 +47,7 @@ EVERY = (*NAMES, "cam-rocker", "cylinders")
 """Those with a lever, and all: a moment on a cam's rocker has no point, two drivers no lever."""
 
 
+@cache
 def forces_of(name: str, language: str = "en"):
     """The drawing of the forces of a scene."""
     mechanism = load(SCENES / f"{name}.toml")
