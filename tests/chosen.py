@@ -6,8 +6,10 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import cycle, islice, product
 from pathlib import Path
+from typing import Any
 from zlib import crc32
 
 from graphkin.text import LANGUAGES
@@ -65,6 +67,15 @@ def shared(names: Iterable[str], parts: int, part: int = 0) -> tuple[str, ...]:
 def spoken_by(name: str) -> tuple[str, ...]:
     """The language in which a scene is looked at, by its number; all with ``EVERY=1``."""
     return LANGUAGES if EVERY else (LANGUAGES[number_of(name) % len(LANGUAGES)],)
+
+
+def by_turns(*lists: Sequence[Any]) -> list[tuple[Any, ...]]:
+    """Each of every list at least once, with the others by turns; every combination with
+    ``EVERY=1``.
+    """
+    if EVERY:
+        return [*product(*lists)]
+    return [*islice(zip(*map(cycle, lists), strict=False), max(map(len, lists)))]
 
 
 HALVES = shared(CHOSEN, 2, 0), shared(CHOSEN, 2, 1)

@@ -20,6 +20,7 @@ from msgspec.structs import replace
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.plane import cross, dot
 from graphkin.scene.read_scene import read_text
+from tests.chosen import EVERY
 
 HEAD = """graphkin = 1
 title = "made at random"
@@ -29,7 +30,7 @@ units = { length = "m", angle = "deg", speed = "rad/s" }
 
 COIN = st.booleans()
 SHIPPED = ("pump", "pump-collinear")
-LAW = settings(max_examples=40, deadline=None, derandomize=True, database=None)
+LAW = settings(max_examples=100 if EVERY else 20, deadline=None, derandomize=True, database=None)
 """A law holds on so many mechanisms made at random, the same ones at every run."""
 
 

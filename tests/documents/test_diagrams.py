@@ -40,6 +40,7 @@ from graphkin.scene.model import StatedPositions
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
+from tests.chosen import by_turns
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
@@ -253,7 +254,7 @@ def test_derivatives_by_the_driver_are_those_of_the_closed_form():
 
 def test_an_accelerating_driver_is_compared_with_its_own_share_left_out():
     """a = ω²·s″ + ε·s′, and differentiating v by φ gives the first term alone."""
-    scene = SCENE.replace("speed = 3", "speed = 3\nacceleration = 5")
+    scene = scene_text("documents/slider-crank").replace("speed = 3", "speed = 3\nacceleration = 5")
     moved = motion(mechanism_of(scene), 12)
     first, second = moved.derivatives(moved.at)[:2]
     assert values_at(moved, moved.at)[2] == pytest.approx(9 * second, rel=1e-9, abs=1e-9)
@@ -317,8 +318,7 @@ def test_the_mechanical_advantage_balances_the_power():
 # --- all kinds of mechanisms ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", DRAWN)
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("name", "language"), by_turns(DRAWN, LANGUAGES))
 def test_diagrams_stay_on_the_page_in_every_language(name: str, language: str):
     found = sheets(name, language)
     assert "courses" in found
@@ -367,25 +367,6 @@ def test_axes_put_zero_where_it_belongs():
     axes = Axes((10.0, 0.0, 110.0, 60.0), 30.0, 2.0, 5.0, 1.0)
     assert axes.on_page(axes.place(1.0, 0.0)) == (10.0, 30.0)
     assert axes.on_page(axes.place(2.0, 1.0)) == (12.0, 25.0)
-
-
-SCENE = """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 2
-[links.2]
-A-B = 5
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 40
-speed = 3
-[branches]
-3 = "forward"
-"""
 
 
 EPICYCLIC = """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -28,7 +29,7 @@ from graphkin.scene.house import house_of
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import StructureError
-from tests.chosen import FOLDER
+from tests.chosen import FOLDER, by_turns
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
 NAMES = (
@@ -46,6 +47,7 @@ EVERY = (*NAMES, "cam-rocker", "cylinders")
 """Those with a lever, and all: a moment on a cam's rocker has no point, two drivers no lever."""
 
 
+@cache
 def forces_of(name: str, language: str = "en"):
     """The drawing of the forces of a scene."""
     mechanism = load(SCENES / f"{name}.toml")
@@ -53,6 +55,7 @@ def forces_of(name: str, language: str = "en"):
     return force_drawing(mechanism, drawings_of(mechanism, verdict, words(language)))
 
 
+@cache
 def sheet_of(name: str, view: str, language: str | None = None) -> tuple[Page, ...]:
     """The pages of the force sheet."""
     found = hand_out(load(SCENES / f"{name}.toml"), view, language)
@@ -63,8 +66,7 @@ def texts(page: Page) -> list[Text]:
     return [mark for mark in page.marks if isinstance(mark, Text)]
 
 
-@pytest.mark.parametrize("name", EVERY)
-@pytest.mark.parametrize("view", ["key", "task", "steps", "overlay"])
+@pytest.mark.parametrize(("name", "view"), by_turns(EVERY, ("key", "task", "steps", "overlay")))
 def test_every_view_has_a_sheet_of_forces_that_fits(name, view):
     for page in sheet_of(name, view):
         page.check()
@@ -105,8 +107,7 @@ def test_a_pencil_s_error_moves_both_balances_by_little(name):
     assert abs(total - exact) <= allowed
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", ["shaper", "gas-engine"])
+@pytest.mark.parametrize(("name", "language"), by_turns(["shaper", "gas-engine"], LANGUAGES))
 def test_checks_of_forces_stay_within_a_sheet_of_a4(name, language):
     house = house_of('graphkin = 1\n[pages]\npaper = "A4"\n', ".")
     source = load(SCENES / f"{name}.toml").scene.source

@@ -22,11 +22,12 @@ from graphkin.scene.model import StatedPositions
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import SceneError
-from tests.chosen import FOLDER
+from tests.chosen import FOLDER, by_turns
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
 from tests.scene_files import FOLDER as SCENES
+from tests.scene_files import scene_text
 
 DRAWN = ("crank-rocker", "shaper", "cam-roller", "cam-lever", "gears-planet", "five-bar")
 
@@ -193,8 +194,7 @@ def test_every_moving_pin_has_its_number_at_every_position(name: str):
     assert pins <= {*told}
 
 
-@pytest.mark.parametrize("name", DRAWN)
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("name", "language"), by_turns(DRAWN, LANGUAGES))
 def test_a_sheet_stays_within_its_frame_in_every_language(name: str, language: str):
     for page in pages(mechanism_named(name), language).values():
         page.check()
@@ -238,24 +238,7 @@ def test_one_plan_alone_does_not_make_all_others_small(sizes, deciding):
     assert usual(boxes) == boxes[:deciding]
 
 
-SCENE = """
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 2
-[links.2]
-A-B = 5
-[links.3]
-B = [0, 0]
-slides = { on = 0, through = "O", angle = 0 }
-[[drivers]]
-turn = 1
-angle = 40
-speed = 3
-[branches]
-3 = "forward"
-[positions]
-"""
+SCENE = scene_text("documents/slider-crank") + "[positions]\n"
 
 
 def test_all_mistakes_of_positions_are_told_at_once():

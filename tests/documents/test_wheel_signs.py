@@ -14,6 +14,7 @@ from graphkin.construction.rolling.wheel_images import RateByRadii
 from graphkin.documents.relations import relations
 from graphkin.documents.sheet import left_board
 from graphkin.text import LANGUAGES, words
+from tests.chosen import by_turns
 from tests.documents.sheet_tools import drawings, mechanism_named
 
 COMPOUND = ("belts-dynamo", "gears-ferguson", "hoist-differential")
@@ -25,8 +26,7 @@ def test_the_second_wheel_of_a_link_has_a_prime_the_third_two():
     assert [link.wheel_sign(wheel) for wheel in link.wheels] == ["2", "2′", "2″"]
 
 
-@pytest.mark.parametrize("name", COMPOUND)
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("name", "language"), by_turns(COMPOUND, LANGUAGES))
 def test_every_radius_of_the_calculations_is_that_of_one_wheel_of_the_data(name, language):
     scene = mechanism_named(name).scene
     given = [each for said in wheels(scene, words(language)) for each in RADIUS.findall(said)]

@@ -25,6 +25,7 @@ from tests.laws.exact_forces import (
 from tests.laws.force_routes import differences, loaded
 from tests.mechanisms import HEAD, mechanism_of
 from tests.running import ran
+from tests.scene_files import scene_text
 
 ROUNDING = 1e-12
 """The share of the largest force by which doubles may differ from fifty digits."""
@@ -102,43 +103,20 @@ def test_a_driven_link_on_another_passes_its_pin_s_force_to_the_link_that_carrie
     assert max(differences(mechanism)) < ROUNDING
 
 
-PAIR_OF_DRIVERS = """
-gravity = true
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 0.7
-mass = 3
-centre = "A"
-[links.2]
-A-B = 0.4
-mass = 2
-centre = "B"
-[[drivers]]
-turn = 1
-angle = 20
-speed = 3
-[[drivers]]
-turn = 1
-against = 2
-angle = -50
-speed = 7
-[ask]
-balance = true
-"""
-
-
 def test_two_drivers_of_one_link_have_a_balance_each(tmp_path):
     """Link 1 is driven against the frame and against link 2: balance.1-0 and balance.1-2."""
-    mechanism = mechanism_of(PAIR_OF_DRIVERS)
+    speeds = {"u1": 3, "u2": -7, "a1": None, "a2": None}
+    text = scene_text("laws/arm-of-two-links", q1=20, q2=50, **speeds) + "[ask]\nbalance = true\n"
+    other = exact_forces(mechanism_of(text))
+    text = text.replace("turn = 2\nagainst = 1", "turn = 1\nagainst = 2")
+    text = text.replace("= 50", "= -50").replace("= -7", "= 7")
+    mechanism = mechanism_of(text)
     assert far_from_exact(mechanism) < ROUNDING
-    turned = PAIR_OF_DRIVERS.replace("turn = 1\nagainst = 2", "turn = 2\nagainst = 1")
-    other = exact_forces(mechanism_of(turned.replace("-50", "50").replace("= 7", "= -7")))
     exact = exact_forces(mechanism)
     assert math.isclose(exact.drivers["1-0"], other.drivers["1"], rel_tol=1e-15)
     assert math.isclose(exact.drivers["1-2"], -other.drivers["2"], rel_tol=1e-15)
     scene = tmp_path / "two.toml"
-    scene.write_text(HEAD + PAIR_OF_DRIVERS, encoding="utf-8")
+    scene.write_text(HEAD + text, encoding="utf-8")
     printed = json.loads(ran("solve", scene, "--json").stdout)["balance"]
     assert printed.keys() == {"1-0", "1-2"}
     for name, each in printed.items():
@@ -257,48 +235,11 @@ def test_masses_on_one_link_and_gravity_agree():
     assert far_from_exact(mechanism) < ROUNDING
 
 
-THREE = """
-gravity = true
-[frame]
-O = [0, 0]
-C = [0.6, 0]
-D = [0.5, 0.7]
-[links.1]
-O-A = 0.15
-[links.2]
-A-B = 0.5
-[links.3]
-C-B = 0.4
-[links.4]
-B-E = 0.4
-mass = 1
-centre = "B"
-[links.5]
-D-E = 0.35
-mass = 2
-centre = "E"
-[[loads]]
-at = "B"
-link = {first}
-force = [70, -120]
-[[loads]]
-at = "B"
-link = {second}
-force = [-15, 33]
-[[drivers]]
-turn = 1
-angle = 60
-speed = 8
-[branches]
-B = "left of A-C"
-E = "right of B-D"
-"""
-
-
 @pytest.mark.parametrize("first", [2, 3, 4])
 @pytest.mark.parametrize("second", [2, 3, 4])
 def test_loads_on_a_pin_of_three_links_agree_on_whichever_link(first, second):
-    assert far_from_exact(mechanism_of(THREE.format(first=first, second=second))) < ROUNDING
+    text = scene_text("laws/three-links-on-a-pin", first=first, second=second)
+    assert far_from_exact(mechanism_of(text)) < ROUNDING
 
 
 ERRED = {

@@ -10,6 +10,7 @@ import pytest
 from graphkin.construction.reactions import by_name
 from graphkin.text.errors import SceneError, StructureError
 from tests.mechanisms import mechanism_of
+from tests.scene_files import scene_text
 
 FOUR_BAR = """
 gravity = [0.3, -9.81]
@@ -167,36 +168,11 @@ acceleration = 2
 [branches]
 3 = "forward"
 """
-SHARED = """
-gravity = true
-[frame]
-O = [0, 0]
-C = [0.6, 0]
-D = [0.5, 0.7]
-[links.1]
-O-A = 0.15
-[links.2]
-A-B = 0.5
-[links.3]
-C-B = 0.4
-[links.4]
-B-E = 0.4
-[links.5]
-D-E = 0.35
-mass = 2
-centre = "E"
-[[loads]]
-at = "B"
-link = {on}
-force = [70, -120]
-[[drivers]]
-turn = 1
-angle = 60
-speed = 8
-[branches]
-B = "left of A-C"
-E = "right of B-D"
-"""
+
+
+def three_links(on: int) -> str:
+    """Three links on a pin with two loads: one on link 4, the other on one of the three."""
+    return scene_text("laws/three-links-on-a-pin", first=on, second=4)
 
 
 def solved(text: str):
@@ -230,12 +206,12 @@ def test_three_routes_agree_for_each_dyad_with_slides(text):
 @pytest.mark.parametrize("on", [2, 3, 4])
 def test_a_load_on_a_pin_of_three_links_acts_alike_on_the_rest(on):
     """The link that takes the load changes only its own force in that pin."""
-    found = solved(SHARED.format(on=on))
+    found = solved(three_links(on))
     load = 70 - 120j
     pin = {each.link: each.force for each in by_name(found, "B")["B"]}
     assert abs(sum(pin.values())) < 1e-9 * abs(load)
     pin[str(on)] += load
-    other = solved(SHARED.format(on=2))
+    other = solved(three_links(2))
     expected = {each.link: each.force for each in by_name(other, "B")["B"]}
     expected["2"] += load
     for link, force in pin.items():
@@ -243,8 +219,8 @@ def test_a_load_on_a_pin_of_three_links_acts_alike_on_the_rest(on):
 
 
 def test_a_pin_of_a_massless_bar_carries_along_the_bar():
-    bar = by_name(solved(SHARED.format(on=3)), "A")["A"]
-    mechanism = mechanism_of(SHARED.format(on=3))
+    bar = by_name(solved(three_links(3)), "A")["A"]
+    mechanism = mechanism_of(three_links(3))
     places = {name: each.position for name, each in mechanism.solve().points.items()}
     along = places["B"] - places["A"]
     for each in bar:

@@ -18,7 +18,7 @@ from graphkin.scene.read_scene import read_text
 from graphkin.studio.panels import Memory, StaleError, around
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import WitnessError
-from tests.chosen import FOLDER
+from tests.chosen import FOLDER, by_turns
 from tests.scene_files import scene_text
 from tests.studio.pump import PUMP, desk_in, ordered, seen, svgs
 
@@ -70,8 +70,7 @@ def test_what_is_asked_and_cannot_be_read_off_is_told_as_sheets_tell_it(language
     assert bool(told) == (text is not PUMP)
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", scene_files.names())
+@pytest.mark.parametrize(("name", "language"), by_turns(scene_files.names(), LANGUAGES))
 def test_every_lab_is_seen_in_every_language(name, language):
     text = (scene_files.shelf() / name / "scene.toml").read_text(encoding="utf-8")
     from graphkin.studio.look import Sight, look

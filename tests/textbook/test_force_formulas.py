@@ -11,6 +11,7 @@ import math
 
 import pytest
 
+from tests.scene_files import scene_text
 from tests.textbook.book import Held, exactly, within
 
 METRES = 'units = { length = "m", angle = "deg", speed = "rad/s" }\n'
@@ -475,31 +476,6 @@ def test_khurmi_13_19_torque_of_the_machine_shaft():
 
 # --- inertia forces ------------------------------------------------------------------------------
 
-ARM = """
-gravity = true
-[frame]
-O = [0, 0]
-[links.1]
-O-A = 0.7
-mass = 3
-centre = "A"
-[links.2]
-A-B = 0.4
-mass = 2
-centre = "B"
-[[drivers]]
-turn = 1
-angle = {q1}
-speed = {u1}
-acceleration = {a1}
-[[drivers]]
-turn = 2
-against = 1
-angle = {q2}
-speed = {u2}
-acceleration = {a2}
-"""
-
 
 @pytest.mark.parametrize(
     "state", [(20, 50, 0, 0, 0, 0), (-30, 100, 3, -7, 0, 0), (110, -60, -2, 5, 11, -13)]
@@ -507,7 +483,8 @@ acceleration = {a2}
 def test_craig_6_7_torques_of_an_arm_of_two_links(state):
     """J. J. Craig, Introduction to Robotics, section 6.7: two links with masses at their ends."""
     q1, q2, u1, u2, a1, a2 = state
-    held = Held(METRES + ARM.format(q1=q1, q2=q2, u1=u1, u2=u2, a1=a1, a2=a2))
+    arm = scene_text("laws/arm-of-two-links", q1=q1, q2=q2, u1=u1, u2=u2, a1=a1, a2=a2)
+    held = Held(METRES + arm)
     m1, m2, l1, l2 = 3, 2, 0.7, 0.4
     one, other = math.radians(q1), math.radians(q2)
     c1, c2, s2, c12 = math.cos(one), math.cos(other), math.sin(other), math.cos(one + other)

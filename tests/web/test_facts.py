@@ -18,6 +18,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.web.step_page import task_page
+from tests.chosen import by_turns
 from tests.classroom.grading.students import LABS
 
 SCENES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -36,8 +37,7 @@ def told(mechanism: Mechanism, language: str = "en") -> list[str]:
     return [unescape(re.sub(r"<[^>]+>", "", said)) for said in told]
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "language"), by_turns(NAMES, LANGUAGES))
 def test_a_task_says_at_which_scale_to_draw_on_paper(name, language):
     mechanism, spoken = mechanism_of(name), words(language)
     chosen = scales(mechanism)

@@ -38,7 +38,7 @@ from graphkin.web.protocol import (
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from graphkin.web.step_page import step_page, task_page
 from graphkin.writers.svg import number
-from tests.chosen import CHOSEN, SCENES, shared
+from tests.chosen import CHOSEN, SCENES, by_turns, shared
 from tests.documents.sheet_tools import mechanism_named
 
 LABS = ("pump", "offset-slider-crank", "slotted-lever")
@@ -301,8 +301,7 @@ def test_a_letter_in_a_reason_has_its_index_once(name):
             assert found is None or found.group(1) in labels
 
 
-@pytest.mark.parametrize("make", [step_page, task_page])
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(("make", "language"), by_turns([step_page, task_page], LANGUAGES))
 def test_each_field_has_its_bar(make, language):
     text = make(load("pump"), language)
     assert text.count('class="bar"') == text.count('<div class="view">') - (make is task_page) == 4
