@@ -203,9 +203,9 @@ def in_other_units(keys: Keys, answers: Any, sizes: Any) -> None:
     for places in groups.values():
         own = powers[:, places][np.isfinite(powers[:, places])]
         power = round(float(np.median(own))) if len(own) >= FEW else 0
-        if power and all(is_off(powers[:, [place]], power) for place in places):
-            if abs(np.median(own) - power) <= CENTRED:
-                problems.append(of_unit(keys, places, 10.0**power))
+        centred = abs(np.median(own) - power) <= CENTRED if power else False
+        if centred and all(is_off(powers[:, place], power) for place in places):
+            problems.append(of_unit(keys, places, 10.0**power))
     if problems:
         raise RosterError(problems)
 
@@ -221,13 +221,13 @@ def single_units(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
         item = keys.standards[0].item[field]
         if item.what == "place" or given[place] < FEW:
             continue
-        column = powers[:, [place]]
+        column = powers[:, place]
         units = {item.one / size for size in UNITS.get(item.unit, {}).values()}
         for factor in sorted(units | {10.0**power for power in POWERS}):
             off = float(np.log10(factor))
-            if abs(off) > TENFOLD and is_off(column, off):
-                if abs(np.nanmedian(column) - off) <= CENTRED:
-                    problems.append(of_unit(keys, [place], factor))
+            centred = abs(np.nanmedian(column) - off) <= CENTRED
+            if centred and abs(off) > TENFOLD and is_off(column, off):
+                problems.append(of_unit(keys, [place], factor))
     others = len(keys.fields) - len(problems)
     if problems and (right > MOST * given).sum() >= MOST * others:
         raise RosterError(problems)

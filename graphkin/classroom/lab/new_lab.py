@@ -167,8 +167,8 @@ COURSE = "mechanics 2026"
 class ProposedRanges(Struct, frozen=True):
     """Ranges to draw from for a course.
 
-    ``count`` is the number of different data. ``kept`` is the number of students with fair data, in
-    a class of ``of``, at the limit ``apart``. ``exact`` is the share of data that a pencil draws
+    ``count`` is the number of different data. ``kept`` is the number of sheets with fair data, of
+    ``of`` in a class, at the limit ``apart``. ``exact`` is the share of data that a pencil draws
     accurately enough. ``positions`` are those of the lab, drawn from all that the scene allows.
     """
 
