@@ -112,8 +112,9 @@ def new_lab(name: str, folder: Path, scene: str | None, force: bool) -> None:
 def new_answers(folder: Path, output: Path | None, force: bool) -> None:
     """Make an empty table of a class's answers, to be filled in and marked.
 
-    DIR is the folder that graphkin variants wrote. The table has a row for each student and a
-    column for each field of the form. graphkin grade reads it.
+    DIR is the folder that graphkin variants wrote. The table has a row for each form and a column
+    for each of its fields. Its first columns are on the form too: id, name and code, and the
+    position where a student has several. graphkin grade reads the table.
 
     \b
     Example:
@@ -129,9 +130,14 @@ def new_answers(folder: Path, output: Path | None, force: bool) -> None:
     opened = read_edition(folder)
     mechanism = Mechanism(read_text(opened.scene, opened.lab.name))
     fields = [item.field for item in items(mechanism, opened.lab)]
-    students = [taker.student for taker in opened.takers]
-    rows = ([student.id, student.name, *("" for _ in fields)] for student in students)
-    table = csv_bytes([["id", "name", *fields], *rows])
+    several = opened.lab.rule.positions
+    own = [several.parameter] if several is not None else []
+    rows = [
+        [e.student.id, e.student.name, e.code, *(e.settings[name] for name in own)]
+        for e in opened.takers
+    ]
+    head = ["id", "name", "code", *own]
+    table = csv_bytes([[*head, *fields], *([*row, *("" for _ in fields)] for row in rows)])
     if output is None:
         tell(table.decode("utf-8-sig").splitlines())
     else:
@@ -412,9 +418,10 @@ def proposed(lab: Lab, found: FairRanges) -> list[str]:
 
 def notes_of(new: ProposedRanges) -> list[str]:
     """How many different data the proposed ranges give, and to how many students."""
-    room = f"{new.kept} of {new.of} students"
+    what = "students" if new.positions is None else "sheets"
+    room = f"{new.kept} of {new.of} {what}"
     if new.kept == new.of:
-        room = f"all {new.of} students of a class"
+        room = f"all {new.of} {what} of a class"
     note = f"{new.count} different data; at apart = {new.apart:g} they keep {room} apart"
     again = "the others are drawn again"
     coarse = f"a pencil draws {100 * new.exact:.0f} % of these exactly enough, {again}"

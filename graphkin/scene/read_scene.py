@@ -118,7 +118,14 @@ def read_into(
         from graphkin.scene.read_forces import read_forces
 
         measures = Measures(findings, scene.units, scene.values)
-        scene = replace(scene, forces=read_forces(top, asked, scene, measures))
+        forces = read_forces(top, asked, scene, measures)
+        if forces is not None and states_other_results(top, scene):
+            findings.add(
+                "units.results",
+                message("{unit}: results with masses or loads are in metres", unit=scene.results),
+                message('results = "SI", or no results'),
+            )
+        scene = replace(scene, forces=forces)
     top.finish()
     check_scene(scene, findings)
     scene = replace(scene, ask=read_ask(asked, findings, scene))
@@ -152,6 +159,12 @@ def has_forces(top: Table, asked: Table) -> bool:
     written = [top.raw.get(FRAME_WORD), *(links.values() if isinstance(links, dict) else ())]
     masses = (key in each for each in written if isinstance(each, dict) for key in MASS_KEYS)
     return any(key is not None for key in keys) or any(masses)
+
+
+def states_other_results(top: Table, scene: Scene) -> bool:
+    """Whether a file itself wants results in another unit of length than metres."""
+    units = top.raw.get("units")
+    return isinstance(units, dict) and "results" in units and scene.unit_of_results != "m"
 
 
 def check_version(top: Table, findings: Findings) -> None:

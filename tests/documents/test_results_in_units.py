@@ -20,6 +20,7 @@ from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
 from graphkin.web.step_page import step_page
 from tests.running import Run
+from tests.scene_files import scene_text
 
 INCH = 0.0254
 SCENES = (
@@ -188,3 +189,15 @@ def test_a_class_in_inches_is_marked_in_inches(run: Run, tmp_path) -> None:
     assert "one,v_B,in/s,18.6977," in tolerances
     page = next((folder / "report").rglob("*one*.html")).read_text(encoding="utf-8")
     assert "18.70" in page and "in/s" in page and "m/s" not in re.sub("[a-z]m/s", "", page)
+
+
+@pytest.mark.parametrize(("unit", "is_read"), [("in", False), ("cm", False), ("m", True)])
+def test_results_of_a_scene_with_masses_are_in_metres(unit, is_read):
+    """Newtons are of metres: another unit that the scene states itself is refused, not ignored."""
+    scene = scene_text("forces/four-bar")
+    stated = scene.replace("units = { ", f'units = {{ results = "{unit}", ')
+    if is_read:
+        assert read_text(stated, "x").unit_of_results == "m"
+        return
+    with pytest.raises(SceneError, match=f"units.results: {unit}: .* in metres"):
+        read_text(stated, "x")

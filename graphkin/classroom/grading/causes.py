@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from itertools import groupby
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import astuple, replace
@@ -40,10 +40,25 @@ Mend = Callable[[Value, Get], Value]
 """A step's value as a student has it, from its right value and the other steps' values."""
 UNITS = {"rpm_as_rad": 30 / pi, "turns_as_rad": 1 / (2 * pi)}
 """The factor on a crank's speed where rev/min, or rev/s, are taken for rad/s."""
-MILLIMETRE = -1
-"""In place of a step's number: what a millimetre of the velocity plan is worth."""
+MILLIMETRES = {-1: "velocities", -2: "accelerations"}
+"""In place of a step's number: the plan a millimetre of which is meant."""
+OF_VELOCITIES, OF_ACCELERATIONS = MILLIMETRES
 RAD_AS_RPM = pi / 30
 """The factor on a crank's speed where rad/s are taken for rev/min."""
+
+
+class Told(NamedTuple):
+    """What is written by a cause: sizes, places and senses by student and field.
+
+    ``other`` holds values that are as likely, field by field; NaN for none. ``price`` is the
+    logarithm of how likely the choices are that were made to fit each student. ``alone`` marks
+    answers that are fitted by a choice of their own, so that they agree whatever they are.
+    """
+
+    written: Any
+    other: Any = None
+    price: Any = 0.0
+    alone: Any = None
 
 
 class Change(Struct, frozen=True):
@@ -289,8 +304,8 @@ def without_sense(layout: FormLayout, rates: Collection[int]) -> Callable[..., A
     probes = layout.probes
     mask = np.array([probe.item.what == "sense" and probe.step in rates for probe in probes])
 
-    def reads(shown: Any, *rest: Any) -> tuple[Any, None]:
-        return np.where(mask, 0.0, shown), None
+    def reads(shown: Any, *rest: Any) -> Told:
+        return Told(np.where(mask, 0.0, shown))
 
     return reads
 
@@ -319,11 +334,14 @@ def slip_at(step: Step, name: str) -> Slip | None:
     return None
 
 
-def laid_anew(layout: FormLayout, misread: Callable[[Value, Value], Value]) -> Change:
+Misread = Callable[[Value, Value], Value]
+"""The factor of a length, from its real size and from what a millimetre of its plan is worth."""
+
+
+def laid_anew(layout: FormLayout, misread: Misread, laid: Misread | None = None) -> Change:
     """Components computed from velocities that were misread, each by a factor.
 
-    ``misread`` gives the factor of a length of the velocity plan, from its real size and from what
-    a millimetre of the plan is worth.
+    ``laid`` gives the factor of a length that is laid off in the acceleration plan.
     """
     program = layout.program
     mends: dict[int, Mend] = {}
@@ -334,7 +352,8 @@ def laid_anew(layout: FormLayout, misread: Callable[[Value, Value], Value]) -> C
         tail, tip = program.steps[number].args[-2:]
 
         def mend(value: Value, get: Get, tail: int = tail, tip: int = tip) -> Value:
-            return value * misread(abs(get(tip) - get(tail)), get(MILLIMETRE)) ** 2
+            computed = value * misread(abs(get(tip) - get(tail)), get(OF_VELOCITIES)) ** 2
+            return computed if laid is None else computed * laid(computed, get(OF_ACCELERATIONS))
 
         mends[number] = mend
     return Change(mends)
@@ -399,8 +418,8 @@ class Variants(Struct, frozen=True, dict=True):
         found: dict[int, Value] = {}
 
         def get(number: int) -> Value:
-            if number == MILLIMETRE:
-                return self.paper.velocities / 1000
+            if number in MILLIMETRES:
+                return getattr(self.paper, MILLIMETRES[number]) / 1000
             return found[number] if number in found else values[number]
 
         try:
@@ -504,8 +523,8 @@ class Variants(Struct, frozen=True, dict=True):
         found: dict[int, Value] = {}
 
         def get(number: int) -> Value:
-            if number == MILLIMETRE:
-                return paper.velocities / 1000
+            if number in MILLIMETRES:
+                return getattr(paper, MILLIMETRES[number]) / 1000
             return found[number] if number in found else values[number]
 
         for number in self.layout.needed:

@@ -32,6 +32,8 @@ CENTRED = 0.008
 """How near a power of ten the middle of a column is that lost its points, as a logarithm."""
 TENFOLD = 0.1
 """How near a power of ten an answer is that is off by it, as a logarithm."""
+POWERS = (-4, -3, -2, -1, 1, 2, 3, 4)
+"""The powers of ten by which a column may be off."""
 REACH = 5
 """The most rows by which a table is thought to be shifted."""
 SAMPLE = 60
@@ -66,6 +68,7 @@ def look_at_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> 
     columns(keys, answers, keys.sizes[variants], allowed[variants])
     in_other_units(keys, answers, keys.sizes[variants])
     tens(graded, present, keys, answers, keys.sizes[variants])
+    single_units(keys, answers, keys.sizes[variants], allowed[variants])
     scales(keys, answers, keys.sizes[variants], allowed[variants])
     if len(own) > 1:
         apart = away(answers, keys.sizes[variants], allowed[variants])
@@ -200,31 +203,62 @@ def in_other_units(keys: Keys, answers: Any, sizes: Any) -> None:
     for places in groups.values():
         own = powers[:, places][np.isfinite(powers[:, places])]
         power = round(float(np.median(own))) if len(own) >= FEW else 0
-        near = abs(powers[:, places] - power) < TENFOLD
-        given = np.maximum(1, np.isfinite(powers[:, places]).sum(axis=0))
-        alike = near.sum(axis=0) >= MIXED * given
-        if power and abs(np.median(own) - power) <= CENTRED and alike.all():
-            problems.append(of_unit(keys, places, power))
+        centred = abs(np.median(own) - power) <= CENTRED if power else False
+        if centred and all(is_off(powers[:, place], power) for place in places):
+            problems.append(of_unit(keys, places, 10.0**power))
     if problems:
         raise RosterError(problems)
 
 
-def of_unit(keys: Keys, places: Sequence[int], power: int) -> Problem:
-    """What is wrong with columns off by a power of ten, and what to do."""
+def single_units(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
+    """Raise RosterError where a few columns are off by a factor of another unit, and most right."""
+    right = (abs(answers - sizes) <= allowed).sum(axis=0)
+    given = (~np.isnan(answers)).sum(axis=0)
+    with np.errstate(all="ignore"):
+        powers = np.log10(answers / abs(sizes))
+    problems = []
+    for place, field in enumerate(keys.fields):
+        item = keys.standards[0].item[field]
+        if item.what == "place" or given[place] < FEW:
+            continue
+        column = powers[:, place]
+        units = {item.one / size for size in UNITS.get(item.unit, {}).values()}
+        for factor in sorted(units | {10.0**power for power in POWERS}):
+            off = float(np.log10(factor))
+            centred = abs(np.nanmedian(column) - off) <= CENTRED
+            if centred and abs(off) > TENFOLD and is_off(column, off):
+                problems.append(of_unit(keys, [place], factor))
+    others = len(keys.fields) - len(problems)
+    if problems and (right > MOST * given).sum() >= MOST * others:
+        raise RosterError(problems)
+
+
+def is_off(powers: Any, off: float) -> bool:
+    """Whether nearly all answers of a column are off by one power of ten, or by a part of one."""
+    near = (abs(powers - off) < TENFOLD).sum()
+    return bool(near >= MIXED * max(1, np.isfinite(powers).sum()))
+
+
+def of_unit(keys: Keys, places: Sequence[int], factor: float) -> Problem:
+    """What is wrong with columns off by a factor, and what to do."""
     items = [keys.standards[0].item[keys.fields[place]] for place in places]
-    factor = str(10**power) if power > 0 else f"1/{10**-power}"
-    found = message("are {factor} times the values of the data: another unit", factor=factor)
+    size = f"{round(max(factor, 1 / factor), 2):g}"
+    found = message(
+        "the answers are {factor} times the values of the data: another unit",
+        factor=size if factor > 1 else f"1/{size}",
+    )
     first = items[0]
     sizes = UNITS.get(first.unit, {})
-    unit = next((u for u, size in sizes.items() if isclose(size * 10**power, first.one)), "")
+    unit = next((u for u, size in sizes.items() if isclose(size * factor, first.one)), "")
     hint = message("correct the columns, or mark them with --as-it-is")
     if unit:
         hint = message(
             'write the unit in the heads, such as "{head}", or mark with --as-it-is',
             head=f"{first.field} [{unit}]",
         )
-    columns = ", ".join(f'"{item.field}"' for item in items)
-    return Problem(message("columns {columns}", columns=columns), found, NO_WORDS, hint)
+    names = ", ".join(f'"{item.field}"' for item in items)
+    where = message("columns {columns}", columns=names) if items[1:] else f"column {names}"
+    return Problem(where, found, NO_WORDS, hint)
 
 
 def tens(

@@ -91,7 +91,7 @@ def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
     drawn, ax = figure(1.1 + 0.26 * len(columns))
     left = [0.0] * len(columns)
     for status, (key, colour, hatch) in FILLS.items():
-        parts = [100 * sum(m.status is status for m in column) / len(column) for column in columns]
+        parts = [100 * sum(shown(m) is status for m in column) / len(column) for column in columns]
         if any(parts):
             ax.barh(
                 range(len(columns)),
@@ -112,6 +112,12 @@ def difficulty(graded: Sequence[Graded], words: Words) -> Figure:
     ax.grid(axis="y", visible=False)
     drawn.legend(loc="outside upper center", ncols=3)
     return drawn
+
+
+def shown(mark: EarnedMark) -> Status:
+    """The status of an answer in a picture: wrong where a named mistake earns it nothing."""
+    lost = mark.status is Status.CAUSE and not mark.earned and mark.points
+    return Status.WRONG if lost else mark.status
 
 
 def called(item: Item, words: Words) -> str:
@@ -156,7 +162,7 @@ def cause_counts(graded: Sequence[Graded]) -> list[tuple[EarnedCause, int, int]]
     students: Counter[str] = Counter()
     known: dict[str, EarnedCause] = {}
     for each in graded:
-        explained = sum(mark.status is Status.CAUSE for mark in worth(each))
+        explained = sum(shown(mark) is Status.CAUSE for mark in worth(each))
         for cause in each.causes:
             answers[cause.name] += explained
             students[cause.name] += 1

@@ -22,7 +22,7 @@ from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.keys import Keys
-from graphkin.classroom.grading.likelihood import ASTRAY, HALF, SURELY
+from graphkin.classroom.grading.likelihood import ASTRAY, HALF, Key, fit
 from graphkin.classroom.grading.readings import FormFields, View
 from graphkin.classroom.grading.standard import Standard, alike, sense_is_open
 from graphkin.numbers.arithmetic import np
@@ -38,6 +38,8 @@ COMPUTED = 0.004
 """The relative error of a value computed from a length as it was read."""
 DIRECT = 0.15
 """How often a value is not computed from the length that was handed in."""
+OWN = 5.0
+"""The largest factor, up or down, by which a scale of one's own differs from the right one."""
 SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
 LIKELY = 3.0
@@ -54,10 +56,10 @@ SPAN = (0.5, 4.0)
 """The least and largest factor by which an error scales with its value."""
 SPREAD = (0.5, 30.0)
 """The least and largest factor by which an error grows in another drawing."""
-APART = 6.0
-"""The least distance of an explanation from the key, in deviations of the student's drawing."""
-MIDDLE = 0.6745
-"""The median of normal errors, in deviations."""
+ONE_DRAWING = 3.3
+"""The least odds of an explanation as one drawing against the key as one, as a logarithm."""
+TOGETHER = 8.0
+"""The least sum of both odds: field by field, and as one drawing."""
 MOST = 1.0
 """The largest error of an answer that an explanation gives, in parts of the value."""
 BEST = 12
@@ -73,8 +75,8 @@ class SheetCauses(Struct, frozen=True):
 
     ``values`` are sizes, places and senses by field. ``times`` is how many times as large each
     error then is. ``odds`` says how much likelier this is than no mistake, as a logarithm.
-    ``fits`` are the fields whose answers agree. ``single`` is the best
-    explanation by one cause, where these are two.
+    ``fits`` are the fields whose answers agree; those that are ``alone`` agree whatever they are.
+    ``single`` is the best explanation by one cause, where these are two.
     """
 
     causes: tuple[Cause, ...]
@@ -82,6 +84,7 @@ class SheetCauses(Struct, frozen=True):
     times: Mapping[str, float]
     odds: float
     fits: frozenset[str] = frozenset()
+    alone: frozenset[str] = frozenset()
     single: SheetCauses | None = None
 
     @property
@@ -118,14 +121,16 @@ class Hypothesis(Struct, frozen=True):
 class Predicted(Struct, frozen=True):
     """What students would draw and write by a hypothesis.
 
-    ``other`` holds values that are as likely to be ``written``, field by field; NaN for none.
+    ``other``, ``price`` and ``alone`` are those of what is :class:`Told`.
     ``grown`` is how many times as large the errors of such a drawing are beside those of the key.
     """
 
     drawn: Array
     written: Array
-    other: Array | None
     grown: Array
+    other: Array | None = None
+    price: Array | float = 0.0
+    alone: Array | bool = False
 
 
 class AnswerSheets(Struct, frozen=True, dict=True):
@@ -218,22 +223,27 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             return None
         drawn, values = drawing
         predicted, other = drawn, None
+        price: Array | float = 0.0
+        alone: Array | bool = False
         for cause in hypothesis.causes:
             if cause.reads is not None:
-                changed, free = cause.reads(predicted, self.view, values)
+                told = cause.reads(predicted, self.view, values)
                 if other is not None:
-                    again, also = cause.reads(other, self.view, values)
-                    other = again if also is None else np.where(other == predicted, also, again)
-                elif free is not None:
-                    other = free
-                predicted = changed
+                    again = cause.reads(other, self.view, values)
+                    same, also = other == predicted, again.other
+                    other = again.written if also is None else np.where(same, also, again.written)
+                elif told.other is not None:
+                    other = told.other
+                predicted, price = told.written, price + told.price
+                alone = alone if told.alone is None else alone | told.alone
         with np.errstate(all="ignore"):
             grown = growing(drawn, self.key)
             if closely and hypothesis.made:
                 most = SPREAD[1] * np.maximum(1.0, abs(drawn / self.key))
                 own = self.grown(hypothesis)
                 grown = np.where(np.isnan(own), grown, np.clip(own, SPREAD[0], most))
-        found = Predicted(drawn, predicted, other, np.where(self.form.senses, 1.0, grown))
+        grown = np.where(self.form.senses, 1.0, grown)
+        found = Predicted(drawn, predicted, grown, other, price, alone)
         return replace(found, written=self.with_open_senses(found)) if closely else found
 
     def with_open_senses(self, prediction: Predicted) -> Array:
@@ -306,7 +316,8 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             with np.errstate(invalid="ignore"):
                 each = np.logaddexp(each, also) - HALF
         whole = np.where(self.is_read, each, 0.0).sum(axis=2)
-        return (whole + np.array(RARE_PENCILS)[some, None]).max(axis=0)
+        likely: Array = (whole + np.array(RARE_PENCILS)[some, None]).max(axis=0)
+        return likely + prediction.price
 
     def by_field(self, prediction: Predicted, predicted: Array, pencils: Array) -> Array:
         """The density of each answer where some values are aimed at, as a logarithm.
@@ -327,6 +338,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
                 found[..., values] = self.by_length(sizes, found, values, own)
             found = np.logaddexp(log(1 - MISTAKES) + found, self.astray)
             found = np.where(np.isnan(found), self.astray, found)
+            found = np.where(prediction.alone, -np.log(2 * log(OWN) * abs(answers)), found)
             sense = np.where(answers == np.sign(predicted), log(1 - MISTAKES), log(MISTAKES))
             unclear = np.isnan(predicted) | (predicted == 0)
             sense = np.where(unclear | self.open_senses, log(0.5), sense)
@@ -528,37 +540,49 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         few = (missed & fits).sum() < enough * missed.sum()
         if spoilt or (few and not self.turns_all(i, agreeing)):
             return None
-        if not self.is_apart(i, found):
+        if not self.turns_all(i, agreeing) and not self.is_nearer(i, found):
             return None
         return agreeing
 
-    def is_apart(self, i: int, by: SheetCauses) -> bool:
-        """Whether an explanation differs from the key by more than the student's own pencil may.
+    def is_nearer(self, i: int, by: SheetCauses) -> bool:
+        """Whether the answers are likelier by an explanation when all are taken as one drawing.
 
         The errors of one drawing go together: a crank set badly moves all answers.
         """
+        one = self.of_one_drawing(i, by)
+        return one > ONE_DRAWING and one + by.odds > TOGETHER
+
+    def of_one_drawing(self, i: int, by: SheetCauses) -> float:
+        """How much likelier the answers are by an explanation than by the key, as a logarithm.
+
+        The errors of the drawing are correlated as those of the right one.
+        """
         form, fields, read = self.form, self.variants.fields, self.is_read[i]
-        values, right = np.array([by.values[field] for field in fields]), self.key[i]
-        turned = values * right < 0
-        beside = (form.sized >= 0) & turned[form.sized]
-        if (read & turned & form.senses & ~beside & ~self.open_senses[i]).any():
-            return True
+        values, times = (np.array([each[f] for f in fields]) for each in (by.values, by.times))
+        senses = read & form.senses & ~self.open_senses[i]
+        for_cause = senses & (self.answers[i] == np.sign(values))
+        for_key = senses & (self.answers[i] == self.key[i])
+        found = (for_cause.sum() - for_key.sum()) * log(1 / MISTAKES)
         keys = Keys.of([self.variants.standards[self.rows[i]].expectation])
         places = np.array([fields.index(field) for field in keys.fields])
-        usable = read[places] & keys.known(0) & np.isfinite(values[places])
+        usable = read[places] & keys.known(0) & np.isfinite((values * times)[places])
         own = places[usable]
         if not len(own):
-            return True
+            return float(found)
         key, answers = keys.key(0, usable), self.answers[i][own]
-        signed = np.where(form.centres, 1.0, np.sign(right))[own] * values[own]
-        off = abs(answers - np.where(form.centres[own], values[own], abs(values[own])))
-        wide = np.sqrt(np.maximum(np.diag(key.spread), SURELY))
-        pencil = max(1.0, float(np.median(off / wide)) / MIDDLE)
-        noise = key.computed**2 + (self.rounded[i][own] * answers) ** 2 / 3
-        spread = pencil**2 * key.spread / np.outer(wide, wide) + np.diag(noise / wide**2)
-        apart = (signed - key.sizes) / wide
-        spread.flat[:: len(own) + 1] += 1e-6
-        return bool(apart @ np.linalg.solve(spread, apart) > APART**2)
+        rounded = self.rounded[i][own] * abs(answers)
+        scale = times[own]
+        other = Key(
+            np.where(key.places, values[own], abs(values[own])),
+            key.spread * np.outer(scale, scale),
+            key.computed * scale,
+            key.cranks * scale,
+            key.places,
+        )
+        left = np.array([fields[place] not in by.alone for place in own.tolist()])
+        whatever = -np.log(2 * log(OWN) * abs(answers[~left])).sum()
+        by_cause = fit(answers[left], rounded[left], some_of(other, left)).likelihood + whatever
+        return float(found + by_cause - fit(answers, rounded, key).likelihood)
 
     def beside_wrong(self, i: int, by: SheetCauses, fits: Array) -> Array:
         """The answers that only follow from one that an explanation does not give.
@@ -607,7 +631,9 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         values, scaled = (
             dict(zip(fields, each[0].tolist(), strict=True)) for each in (written, times)
         )
-        return SheetCauses(hypothesis.causes, values, scaled, float(odds))
+        alone = np.broadcast_to(prediction.alone, written.shape)[0]
+        free = frozenset(field for field, own in zip(fields, alone, strict=True) if own)
+        return SheetCauses(hypothesis.causes, values, scaled, float(odds), alone=free)
 
     def fits(self, i: int, by: SheetCauses) -> Array:
         """The answers of a student that an explanation gives, within 99 of 100 drawings."""
@@ -698,6 +724,14 @@ class Ranked:
         return list(found.values())
 
 
+def some_of(key: Key, which: Array) -> Key:
+    """The key of some of the fields."""
+    spread = key.spread[np.ix_(which, which)]
+    return Key(
+        key.sizes[which], spread, key.computed[which], key.cranks[:, which], key.places[which]
+    )
+
+
 def growing(drawn: Array, key: Array) -> Array:
     """How many times as large errors are that grow with what is drawn."""
     with np.errstate(all="ignore"):
@@ -782,15 +816,17 @@ def explained_by(
     missed: frozenset[str],
     cause: Cause,
     others: Array,
+    grown: Array,
 ) -> tuple[int, SheetCauses] | None:
     """The one of some other keys that explains a sheet, with its place; None where none does.
 
-    ``others`` has a row for each key, by the fields of the form.
+    ``others`` has a row for each key, by the fields of the form, and ``grown`` how many times as
+    large the errors of its drawing are.
     """
     count = len(others)
     sheet = sheets_of([standard], [0], [given], [missed])
     every = sheet.some([0] * count)
-    prediction = Predicted(others, others, None, growing(others, every.key))
+    prediction = Predicted(others, others, np.clip(grown, *SPREAD))
     likely = every.likely(prediction)
     best = int(likely.argmax())
     odds = float(likely[best] - sheet.judged(Hypothesis())[0] + SHARE - log(count))

@@ -21,7 +21,7 @@ from graphkin.classroom.grading.explanations import (
 )
 from graphkin.classroom.grading.graded import Answer, Graded, Status
 from graphkin.classroom.grading.marking import Marker, unread_left_out
-from graphkin.classroom.grading.standard import Errors, Expectation, Standard, standard
+from graphkin.classroom.grading.standard import Errors, Expectation, Standard, Tolerance, standard
 from graphkin.classroom.lab.lab_model import (
     ANOTHER,
     Item,
@@ -66,20 +66,20 @@ AS_WELL = 1.0
 """The odds, as a logarithm, by which another cause may be likelier than the lab's own."""
 UNEXPLAINED = 0.2
 """The share of unexplained answers from which a second cause beside other data is looked for."""
-AT_OWN, AT_THEIRS = "at own scales", "at their scales"
 
 
 class OtherData(Struct, frozen=True):
     """The right values by another student's data, and the scales of that student's sheets.
 
     ``whose`` are the ids of the students with these data, or a number of the lab. ``taker`` is one
-    of them.
+    of them. ``tolerance`` has the pencil's errors of their drawings.
     """
 
     whose: tuple[str, ...]
     key: Mapping[str, float]
     paper: Paper
     taker: Taker
+    tolerance: Mapping[str, Tolerance]
 
 
 class Others(Struct, frozen=True, dict=True):
@@ -158,8 +158,9 @@ def by_own_causes(book: Markers, graded: Graded, own: Iterable[OwnCause]) -> Gra
         other = taken(book, graded.taker, cause)
         if other is None:
             continue
-        table = np.array([values_by(marker.standard, other, way) for way in (AT_OWN, AT_THEIRS)])
-        found = explained_by(marker.standard, given, missed, Cause(cause.name), table)
+        found = explained_by(
+            marker.standard, given, missed, Cause(cause.name), *tables(marker.standard, [other])
+        )
         if found is not None and (best is None or found[1].odds > best.odds):
             best = found[1]
     if best is None or (graded.causes and graded.causes[0].odds > best.odds + AS_WELL):
@@ -179,7 +180,7 @@ def taken(book: Markers, taker: Taker, cause: OwnCause) -> OtherData | None:
         changed = {name: exact(each.number(values)) for name, each in cause.settings.items()}
         mechanism = Mechanism(replace(scene, values={**values, **changed}))
         found = standard(mechanism, book.form, book.lab.rubric, taker.compute)
-        return OtherData((), found.key, found.paper, taker)
+        return OtherData((), found.key, found.paper, taker, found.tolerance)
     except GraphkinError:
         return None
 
@@ -206,7 +207,7 @@ def of_class(graded: Sequence[Graded], expected: Sequence[Expectation]) -> list[
         whose.setdefault(id(form), []).append(each.taker.student.id)
         known[id(form)] = form, each.taker
     return [
-        OtherData(tuple(whose[i]), form.key, form.paper, taker)
+        OtherData(tuple(whose[i]), form.key, form.paper, taker, form.tolerance)
         for i, (form, taker) in known.items()
         if form.paper is not None
     ]
@@ -234,7 +235,7 @@ def of_numbers(book: Markers, graded: Sequence[Graded]) -> list[OtherData]:
     book.prepare(found)
     standards = [book.marker_of(each).standard for each in found]
     return [
-        OtherData((f"number {each.student.number}",), s.key, s.paper, each)
+        OtherData((f"number {each.student.number}",), s.key, s.paper, each, s.tolerance)
         for each, s in zip(found, standards, strict=True)
     ]
 
@@ -248,8 +249,7 @@ def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
     near = others.nearest(own, given, NEAREST) if missed else []
     if not near:
         return graded
-    table = np.array([values_by(own, e, way) for e in near for way in (AT_OWN, AT_THEIRS)])
-    one = explained_by(own, given, missed, Cause(ANOTHER), table)
+    one = explained_by(own, given, missed, Cause(ANOTHER), *tables(own, near))
     best = None if one is None else (near[one[0] // 2], one[1])
     left = given if best is None else {f: a for f, a in given.items() if f not in best[1].fits}
     is_open = not graded.causes or unexplained(graded) > UNEXPLAINED
@@ -322,12 +322,25 @@ def scale_ratios(own: Paper, other: Paper) -> Any:
     return np.array([theirs / mine if mine else 1.0 for theirs, mine in pairs])
 
 
-def values_by(standard: Standard, other: OtherData, way: str) -> Any:
-    """What a student writes with other data, drawn at one's own scales or at those of the other."""
-    values = np.array([other.key[item.field] for item in standard.items])
-    if way == AT_THEIRS:
-        return values
-    ratios = scale_ratios(standard.paper, other.paper)
-    measured = [item.unit == "mm" for item in standard.items]
+def tables(standard: Standard, others: Sequence[OtherData]) -> tuple[Any, Any]:
+    """What a student writes with each of other data, and how many times as large the errors are.
+
+    There are two rows for each, as drawn at one's own scales and at those of the other.
+    """
+    measured = np.array([item.unit == "mm" for item in standard.items])
     plans = [plan_of(standard.layout, i) for i in range(len(measured))]
-    return values * np.where(measured, ratios[plans], 1.0)
+    own = pencil_of(standard.tolerance, standard.items)
+    values, grown = [], []
+    for other in others:
+        key = np.array([other.key[item.field] for item in standard.items])
+        with np.errstate(all="ignore"):
+            errors = pencil_of(other.tolerance, standard.items) / own
+        ratios = scale_ratios(standard.paper, other.paper)[plans]
+        values += [key * np.where(measured, ratios, 1.0), key]
+        grown += [errors * np.where(measured, 1.0, 1 / ratios), errors]
+    return np.array(values), np.nan_to_num(np.array(grown), nan=1.0, posinf=1.0)
+
+
+def pencil_of(tolerance: Mapping[str, Tolerance], items: Sequence[Item]) -> Any:
+    """The pencil's error of each field; 1 for senses."""
+    return np.array([tolerance[i.field].pencil if i.field in tolerance else 1.0 for i in items])

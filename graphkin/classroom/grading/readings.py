@@ -19,6 +19,8 @@ from graphkin.accuracy.pencil.pencil import SCALES
 from graphkin.classroom.grading.causes import (
     Cause,
     Change,
+    Misread,
+    Told,
     Value,
     Variants,
     constructed,
@@ -38,8 +40,14 @@ FEW = 2
 """The fewest answers that determine a factor of a student's own."""
 ODD = 1.07
 """The least factor, up or down, by which a scale of one's own differs from the right one."""
-FREE = 0.2
-"""How rare a factor of one's own is beside a known one."""
+FREE = -3.5
+"""How rare a factor that is fitted to several answers is, as a logarithm, beside a known one."""
+POWER = -1.0
+"""How rare a power of ten of a prefix is, as a logarithm; any other is twice as rare."""
+OFTEN_OWN = 3.0
+"""How often scales of one's own are chosen for the plans, beside any other cause."""
+PREFIXES = (2, 3)
+"""The powers of ten between metres, centimetres and millimetres."""
 ODD_PAIR = 0.3
 """How rare it is that two cells of one row of the table are exchanged."""
 OFTEN = 3.0
@@ -153,12 +161,12 @@ class View(Struct, frozen=True, dict=True):
         """What a millimetre of one plan is worth, where another plan's is due."""
         return self.scales[scale]
 
-    def factor(self, predicted: Array, among: Array) -> Array:
+    def factor(self, predicted: Array, among: Array, fewest: int = FEW) -> Array:
         """The factor by which a student's answers in some fields are too large; 1 where too few."""
         with np.errstate(all="ignore"):
             ratios = np.where(among, self.answers / abs(predicted), np.nan)
             ratios = np.where(np.isfinite(ratios) & (ratios > 0), ratios, np.nan)
-            enough = np.isfinite(ratios).sum(axis=1) >= FEW
+            enough = np.isfinite(ratios).sum(axis=1) >= fewest
             long = np.where(self.units > 0, abs(predicted) / self.units, 1.0)
             middle = np.exp(middling(np.log(np.where(enough[:, None], ratios, 1.0)), long))
         found = np.where(enough, middle, 1.0)
@@ -180,8 +188,6 @@ def middling(logs: Array, weights: Array | None = None) -> Any:
     return np.nan_to_num(sum(ends) / 2)
 
 
-Told = tuple[Array, Array | None]
-"""The values written by a cause, and others that are as likely, field by field; NaN for none."""
 Reads = Callable[[Array, View, Mapping[int, Value]], Told]
 """What is written, from what a drawing shows, the students, and the drawing's values by step."""
 
@@ -215,7 +221,7 @@ def scaled(mask: Array, factor: Callable[[View], Array], free: Array | None = No
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         changed = only(mask, shown * factor(view), shown)
-        return changed, None if free is None else only(free, shown, changed)
+        return Told(changed, None if free is None else only(free, shown, changed))
 
     return reads
 
@@ -239,8 +245,9 @@ def of_rulers(form: FormFields) -> Iterator[Cause]:
         for way, mask in (("all", read), ("plans", form.lengths | form.computed)):
             reads = shifted(form, mask, shift)
             yield reading("ruler_from_ten", f"{way} {shift:g}", reads)
-            change = laid_anew(layout, lengthened(shift))
-            yield reading("ruler_from_ten", f"{way} {shift:g} laid", reads, 0.5, change)
+            for laid, also in (("laid", None), ("laid with it", shortened(shift))):
+                change = laid_anew(layout, lengthened(shift), also)
+                yield reading("ruler_from_ten", f"{way} {shift:g} {laid}", reads, 0.5, change)
     if form.centres.any():
         upwards = shifted(form, read, 10.0, upwards=True)
         yield reading("ruler_from_ten", "upwards", upwards)
@@ -253,14 +260,19 @@ def steady(ratio: float) -> Callable[[View], Array]:
     return lambda view: ratio
 
 
-def steadily(ratio: float) -> Callable[[Value, Value], Value]:
+def steadily(ratio: float) -> Misread:
     """The same factor for every length."""
     return lambda length, mm: ratio
 
 
-def lengthened(shift: float) -> Callable[[Value, Value], Value]:
+def lengthened(shift: float) -> Misread:
     """The factor of a length that is too long by some millimetres."""
     return lambda length, mm: 1 + shift * mm / length
+
+
+def shortened(shift: float) -> Misread:
+    """The factor of a vector that is laid off too short by some millimetres."""
+    return lambda vector, mm: np.maximum(0.0, 1 - shift * mm / abs(vector))
 
 
 def shifted(form: FormFields, mask: Array, shift: float, *, upwards: bool = False) -> Reads:
@@ -269,7 +281,7 @@ def shifted(form: FormFields, mask: Array, shift: float, *, upwards: bool = Fals
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         way = np.where(form.centres, 1.0, np.sign(shown)) if upwards else np.sign(shown)
         changed = only(mask, shown + shift * view.units * way, shown)
-        return changed, only(form.formulas, shown, changed)
+        return Told(changed, only(form.formulas, shown, changed))
 
     return reads
 
@@ -295,7 +307,7 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
     for plans, mask in owns if third.any() else owns[:3]:
         for free in (None, form.rates) if (mask & form.rates).any() else (None,):
             way = f"own {plans}" if free is None else f"own {plans} or right"
-            yield reading("wrong_scale", way, by_own(form, mask, free), FREE)
+            yield reading("wrong_scale", way, by_own(form, mask, free))
     yield reading("scale_missing", "values", forgotten(form))
     if form.lengths.any():
         yield reading("scale_missing", "lengths", taken_in_full(form))
@@ -303,13 +315,13 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
         for number in range(1, len(SCALES)):
             mask = form.lengths & (form.plans == number)
             if mask.sum() >= FEW:
-                yield reading("own_scale", str(number), by_own(form, mask, None), FREE)
-        yield reading("own_scale", "both", by_own(form, form.lengths, None), FREE)
-        yield reading("own_scale", "plans", by_plan(form, form.lengths), FREE)
-    if form.centres.any():
-        yield reading("own_scale", "mechanism", by_own(form, form.centres, None), FREE)
+                yield reading("own_scale", str(number), by_own(form, mask, None))
+        yield reading("own_scale", "both", by_own(form, form.lengths, None))
+        yield reading("own_scale", "plans", by_plan(form, form.lengths), OFTEN_OWN)
+    if form.centres.sum() > len("xy"):  # one place alone has errors along one line
+        yield reading("own_scale", "mechanism", by_own(form, form.centres, None))
         everywhere = form.lengths | form.centres
-        yield reading("own_scale", "sheet", by_plan(form, everywhere), FREE)
+        yield reading("own_scale", "sheet", by_plan(form, everywhere))
     if form.rates.any():
         for way, power in (("once", 1.0), ("twice", -1.0)):
             factor = powered(power)
@@ -327,7 +339,7 @@ def crossed(form: FormFields, first: Array, second: Array) -> Reads:
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         _, kv, ka, _ = view.scales
         changed = only(first, shown * ka / kv, only(second, shown * kv / ka, shown))
-        return changed, only(form.rates, shown, changed)
+        return Told(changed, only(form.rates, shown, changed))
 
     return reads
 
@@ -336,22 +348,33 @@ def by_own(form: FormFields, mask: Array, free: Array | None) -> Reads:
     """Some fields off by one factor of the student's own, whatever it is."""
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        changed = only(mask, shown * view.factor(shown, mask), shown)
-        return changed, None if free is None else only(free, shown, changed)
+        factor = view.factor(shown, mask)
+        changed = only(mask, shown * factor, shown)
+        other = None if free is None else only(free, shown, changed)
+        return Told(changed, other, FREE * (factor[:, 0] != 1))
 
     return reads
 
 
 def by_plan(form: FormFields, mask: Array) -> Reads:
-    """Some fields off by a factor of the student's own in each plan."""
+    """Some fields off by a factor of the student's own in each plan.
+
+    A single answer of a plan gives the factor too, whatever the answer is.
+    """
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        changed = shown
+        changed, alone = shown, np.zeros(shown.shape, dtype=bool)
+        fitted = np.zeros(len(shown))
         for plan in range(len(SCALES)):
             here = mask & (form.plans == plan)
             if here.any():
-                changed = only(here, shown * view.factor(shown, here), changed)
-        return changed, None
+                factor = view.factor(shown, here, 1)
+                changed = only(here, shown * factor, changed)
+                read = here & ~np.isnan(view.answers)
+                single = read.sum(axis=1, keepdims=True) == 1
+                alone |= read & single & (factor != 1)
+                fitted += (~single & (factor != 1))[:, 0]
+        return Told(changed, price=FREE * fitted, alone=alone)
 
     return reads
 
@@ -364,7 +387,7 @@ def forgotten(form: FormFields) -> Reads:
         with np.errstate(all="ignore"):
             drawn = np.where(view.units > 0, 1 / view.units, np.nan)
         changed = only(vectors, shown * drawn, shown)
-        return changed, only(form.rates, shown * drawn_rates(view, form), changed)
+        return Told(changed, only(form.rates, shown * drawn_rates(view, form), changed))
 
     return reads
 
@@ -380,7 +403,7 @@ def taken_in_full(form: FormFields) -> Reads:
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         scales = np.concatenate(view.scales, axis=1)
-        return only(form.lengths, shown * scales[:, form.plans], shown), None
+        return Told(only(form.lengths, shown * scales[:, form.plans], shown))
 
     return reads
 
@@ -408,7 +431,7 @@ def free_factors(factors: Array, free: Array) -> Reads:
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
         changed = shown * factors
-        return changed, only(free, shown, changed)
+        return Told(changed, only(free, shown, changed))
 
     return reads
 
@@ -432,10 +455,12 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             fits = alike & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
         if whole:
             shift = np.where(fits & view.whole & (near > 0), near, np.nan)
-            return only(np.isfinite(shift), shown * 10.0 ** np.nan_to_num(shift), shown), None
+            power = np.nan_to_num(shift)
+            return Told(shown * 10.0**power, price=price_of(power))
         changed = shown
         least = np.where(np.isfinite(near) & fits, abs(near), np.inf).min(axis=1)
         usual = np.where(np.isfinite(least), middling(np.where(fits, near, np.nan)), 0.0)
+        chosen: list[Array] = []
         for group in groups:
             here = fits & group
             power = np.where(here.any(axis=1), middling(np.where(here, near, np.nan)), usual)
@@ -446,9 +471,18 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             unsure = group & alike & beside & (away < OFTEN * view.errors) & (power != 0)
             some = (here & (near == power)) | unsure
             changed = only(some, shown * 10.0**power, changed)
-        return changed, None
+            chosen.append(np.where(some.any(axis=1), power[:, 0], 0.0))
+        return Told(changed, price=price_of(np.array(chosen).T))
 
     return reads
+
+
+def price_of(powers: Array) -> Array:
+    """How rare the powers of ten in each row are, as a logarithm; equal ones count once."""
+    ordered = np.sort(powers, axis=1)
+    new = (np.diff(ordered, axis=1, prepend=np.inf) != 0) & (ordered != 0)
+    prefixed = np.isin(abs(ordered), PREFIXES)
+    return np.where(new, np.where(prefixed, POWER, 2 * POWER), 0.0).sum(axis=1)
 
 
 # --- formulas -------------------------------------------------------------------------------------
@@ -503,7 +537,7 @@ def computed_from(
                 value = np.asarray(formula(*(values[arg] for arg in args)), dtype=float)
                 every = np.broadcast_to(value, (len(view.form.variants.standards), 1))
                 changed[:, place] = np.copysign(every[view.rows, 0], shown[:, place])
-        return changed, shown
+        return Told(changed, shown)
 
     return reads
 
@@ -529,7 +563,7 @@ def exchanged(pairs: list[tuple[int, int]]) -> Reads:
         changed = shown.copy()
         for one, other in pairs:
             changed[:, one], changed[:, other] = shown[:, other], shown[:, one]
-        return changed, None
+        return Told(changed)
 
     return reads
 

@@ -168,8 +168,8 @@ COURSE = "mechanics 2026"
 class ProposedRanges(Struct, frozen=True):
     """Ranges to draw from for a course.
 
-    ``count`` is the number of different data. ``kept`` is the number of students with fair data, in
-    a class of ``of``, at the limit ``apart``. ``exact`` is the share of data that a pencil draws
+    ``count`` is the number of different data. ``kept`` is the number of sheets with fair data, of
+    ``of`` in a class, at the limit ``apart``. ``exact`` is the share of data that a pencil draws
     accurately enough. ``positions`` are those of the lab, drawn from all that the scene allows.
     """
 
@@ -506,7 +506,8 @@ def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> s
     """The text of a lab.toml to start from, for any scene.
 
     It draws from the proposed ranges, or else from all that the parameters allow. No student's
-    right values may earn another more than half of the points. Each asked field earns a point.
+    right values may earn another more than half of the points. Each asked field earns a point, a
+    sense half of one, since one of two is right by chance.
     Raises SceneError where no parameter of the scene has both ends.
     """
     start = (START / "lab.toml").read_text(encoding="utf-8")
@@ -516,8 +517,13 @@ def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> s
     ranges = space_of(mechanism.scene) if proposed is None else proposed.ranges
     head = ["graphkin = 1", "", *variants_lines(ranges, COURSE), "", ""]
     fair = re.sub(r"(?m)^# apart = \S+", lambda line: f"apart = {APART:<5}", start[limits:first])
-    fields = "".join(f"{name} = 1\n" for name in asked_fields(mechanism))
+    fields = "".join(f"{name} = {points_of(name)}\n" for name in asked_fields(mechanism))
     return explained("\n".join(head) + fair + fields + start[more:], mechanism)
+
+
+def points_of(field: str) -> str:
+    """The points that a new lab gives a field."""
+    return "0.5" if field.endswith("_sense") else "1"
 
 
 def explained(text: str, mechanism: Mechanism) -> str:
@@ -528,7 +534,11 @@ def explained(text: str, mechanism: Mechanism) -> str:
     for line in text.splitlines():
         name = line.partition(" =")[0]
         if line == "# FIELDS":
-            more = ((f"# {each} = 1", note) for each, note in fields.items() if each not in stated)
+            more = (
+                (f"# {each} = {points_of(each)}", note)
+                for each, note in fields.items()
+                if each not in stated
+            )
             lines += [beside(*pair) for pair in more]
         elif line == "# CAUSES":
             own = causes_of(mechanism).items()

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
+from math import pi
 
 import numpy as np
 import pytest
@@ -216,6 +217,27 @@ def whole_class(change, count: int = 12):
     )
 
 
+def one_of_a_class(change):
+    """The first student of a class, whose answers alone are changed."""
+    takers, answers = keys_of(6)
+    first = takers[0].student.id
+    answers[first] = written(answers[first], change)
+    return graded_class(book_of("pump"), takers, answers).graded[0]
+
+
+def test_each_plan_at_a_scale_of_its_own_is_one_cause():
+    """One length of each plan is asked, and both values are right: no law ties the two factors."""
+    factors = {"v_D_mm": 0.7, "a_D_mm": 1.3}
+    graded = one_of_a_class(lambda f, v: v * factors.get(f, 1.0))
+    assert [cause.name for cause in graded.causes] == ["own_scale"]
+    assert graded.share == Fraction("0.9")
+
+
+def test_one_misread_length_beside_a_right_value_is_no_scale_of_ones_own():
+    graded = one_of_a_class(lambda f, v: v * 0.7 if f == "v_D_mm" else v)
+    assert not graded.causes
+
+
 @pytest.mark.parametrize("factor", [1.25, 0.5**0.5])
 def test_sheets_of_another_scale_are_told_and_nothing_is_marked(factor):
     with pytest.raises(RosterError, match="scale"):
@@ -252,6 +274,9 @@ def test_a_class_that_shares_a_mistake_is_marked():
         (lambda f, v: v * 1000 if f in ("v_D", "a_D") else v, '"v_D", "a_D"', "v_D [mm/s]"),
         (lambda f, v: v / 1000, '"v_D", "a_D"', "correct the columns"),
         (lambda f, v: v / 10 if f in ("v_D_mm", "a_D_mm") else v, '"v_D_mm"', "v_D_mm [cm]"),
+        (lambda f, v: v * 100 if f == "a_D" else v, 'column "a_D"', "a_D [cm/s2]"),
+        (lambda f, v: v * 180 / pi if f == "omega_3" else v, '"omega_3"', "omega_3 [deg/s]"),
+        (lambda f, v: v / 10 if f == "epsilon_4" else v, "1/10", "correct the columns"),
     ],
 )
 def test_columns_in_another_unit_are_told_and_nothing_is_marked(change, columns, mend):

@@ -52,7 +52,10 @@ def test_the_scene_is_kept_and_every_drawn_variant_is_fair(tmp_path):
     assert judged(lab, every).fair.all()
     assert set(lab.rubric.points) == set(asked_fields(lab.mechanism))
     text = (tmp_path / "mine" / "lab.toml").read_text(encoding="utf-8")
-    assert all(f"{name} = 1" in text for name in all_fields(lab.mechanism))
+    fields = all_fields(lab.mechanism)
+    halves = {name for name in fields if f"{name} = 0.5" in text}
+    assert all(f"{name} = 1" in text for name in fields if name not in halves)
+    assert halves == {name for name in fields if name.endswith("_sense")}
     assert lab.fair.apart is not None
 
 
