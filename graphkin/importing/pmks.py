@@ -99,7 +99,7 @@ def new_text(text: str) -> Imported:
     few(len(lines))
     found = dict(map(new_joint, lines))
     bodies: dict[str, DrawnLink] = {}
-    weights: dict[str, Weight] = {}
+    weights: dict[str, WrittenMass] = {}
     parts_of_links: dict[str, DrawnLink] = {}
     welded: set[str] = set()
     for line in links:
@@ -107,7 +107,7 @@ def new_text(text: str) -> Imported:
         held = others[5:]
         if line[0] == "Y":
             mass, inertia = (whole(text) / THOUSANDTH for text in others[:2])
-            weights[own] = Weight(mass, inertia, complex(*map(decimal, others[2:4])))
+            weights[own] = WrittenMass(mass, inertia, complex(*map(decimal, others[2:4])))
         end = held.index("")
         (bodies if line[0] == "Y" else parts_of_links)[own] = DrawnLink(name, tuple(held[:end]))
         welded |= {*held[end + 1 :]} if line[0] == "Y" else set()
@@ -135,7 +135,7 @@ def new_text(text: str) -> Imported:
     )
 
 
-class Weight(Struct, frozen=True):
+class WrittenMass(Struct, frozen=True):
     """The mass of a link as the text has it: mass, moment of inertia, centre."""
 
     mass: float
@@ -144,7 +144,7 @@ class Weight(Struct, frozen=True):
 
 
 def place_masses(
-    weights: Mapping[str, Weight],
+    weights: Mapping[str, WrittenMass],
     holders: Mapping[str, str],
     found: dict[str, PmksJoint],
     bodies: dict[str, DrawnLink],

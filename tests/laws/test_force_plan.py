@@ -31,16 +31,16 @@ from tests.laws.force_routes import differences, loaded
 from tests.laws.test_forces import (
     CROSSED,
     FOUR_BAR,
-    SHARED,
     SLIDER,
     SWINGING,
     TWO_BLOCKS,
     four_bar,
     solved,
+    three_links,
 )
 from tests.mechanisms import LAW, mechanism_of, mechanisms
 
-EVERY = [SLIDER, SWINGING, CROSSED, TWO_BLOCKS, SHARED.format(on=2), SHARED.format(on=4)]
+EVERY = [SLIDER, SWINGING, CROSSED, TWO_BLOCKS, three_links(2), three_links(4)]
 NAMES = ["RRP", "RPR", "RPP", "PRP", "RRR", "RRR-shared"]
 CLOSE = 1e-12
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
