@@ -117,9 +117,9 @@ def test_the_keys_go_through_why_and_what_it_hangs_on(kept: Opened, pages: Path)
     assert page.locator("#from a").count() == 3
 
 
-def test_the_focus_stays_where_a_step_takes_its_element_away(kept: Opened, pages: Path):
+def test_the_focus_stays_where_a_step_takes_its_element_away(opened: Opened, pages: Path):
     """On the sentence after a link in it, on the slider after the last press of a button."""
-    page = kept(pages / "pump.html", "#step=6", **DESKTOP)
+    page = opened(pages / "pump.html", "#step=6", **DESKTOP)
     focused = "document.activeElement.id"
     page.locator("#from a", has_text="B").focus()
     page.keyboard.press("Enter")
