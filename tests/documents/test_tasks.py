@@ -14,7 +14,7 @@ from graphkin.construction.core.relation import divided, inverse
 from graphkin.documents.calculation import calculation
 from graphkin.documents.relations import relations
 from graphkin.documents.scheme import elsewhere, full_size, scheme
-from graphkin.documents.sheet import asked_words, sheet
+from graphkin.documents.sheet import BLANK, asked_words, said_above, sheet
 from graphkin.documents.sheet_documents import drawings_of, proved
 from graphkin.drawing.field import A3
 from graphkin.drawing.marks import Arc, LineMark, Text, reach
@@ -216,3 +216,21 @@ def test_the_key_that_is_nobodys_names_its_author_as_the_creator():
     for drawing in authored():
         found = block_texts(sheet(drawing, "key", "1/2")[0])
         assert found["creator"] == "J. Lecturer" and "student" not in found
+
+
+@pytest.mark.parametrize(("name", "is_stated"), [("gears-planet", True), ("crank-rocker", False)])
+def test_the_caption_of_a_task_states_a_factor_that_the_task_gives(name, is_stated):
+    drawing = drawings(name, None)[0]
+    _, plan = said_above(drawing, drawing.kind, "task")
+    assert (BLANK not in plan) is is_stated
+
+
+@pytest.mark.parametrize("name", ["gears-planet", "gears-ravigneaux", "gears-simpson"])
+def test_a_calculation_says_each_numbered_relation_once(name):
+    numbered = [
+        (each.left, each.symbols, each.result)
+        for _, some in relations(drawings(name, None))
+        for each in some
+        if each.result
+    ]
+    assert len(numbered) == len({*numbered})
