@@ -86,7 +86,7 @@ s
 """The gears in a fixed ring: the contact of planet and sun divides the image of a diameter."""
 MOST_PRESSES = 250
 """The most key presses for the plan."""
-MOST_CLICKS = 95
+MOST_CLICKS = 60
 """The most clicks for the position and the plan."""
 SCREEN = """([side, x, y]) => {
   const svg = document.querySelectorAll(".sheet:not([hidden]) .view > svg")[side];
