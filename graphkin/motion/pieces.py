@@ -169,13 +169,15 @@ class Path(Struct, frozen=True):
     ``whole`` means that the first range goes all the way round. ``returns`` means that the
     mechanism then has its initial position again. ``turns`` is the number of whole driver turns
     after which the same ranges recur: the driver's circle. It is 0 for a window, and where few
-    turns do not bring the wheels back.
+    turns do not bring the wheels back. ``searched`` is the number of positions at which a group of
+    higher class was searched for ranges, 0 where none was.
     """
 
     ranges: tuple[Range, ...]
     whole: bool
     returns: bool
     turns: int = 0
+    searched: int = 0
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
@@ -247,15 +249,15 @@ def reachable_ranges(sweep: Sweep, branches: Branches | None = None) -> Path:
             message("lengths that can be assembled"),
             message("graphkin check shows what is wrong"),
         )
-    return shown(sweep, replace(first, ranges=tuple(ranges)))
+    searched = positions_searched(course, first) if course.closers else 0
+    return shown(sweep, replace(first, ranges=tuple(ranges), searched=searched))
 
 
 def others(course: Course, first: Path) -> list[Range]:
     """The ranges that the motion does not reach from the scene's position, in order."""
-    sweep, turns = course.sweep, max(first.turns, 1)
-    count = (FEWEST if course.tries_several else FEWER) if course.closers else GRID
-    step = (sweep.high - sweep.low) / count
-    grid = sweep.low + (np.arange(count * turns) + 0.5) * step
+    sweep, count = course.sweep, positions_searched(course, first)
+    step = (sweep.high - sweep.low) * max(first.turns, 1) / count
+    grid = sweep.low + (np.arange(count) + 0.5) * step
     free = course.closes(grid)
     for found in first.ranges:
         free &= ~covered(first, found, grid)
@@ -268,6 +270,12 @@ def others(course: Course, first: Path) -> list[Range]:
             break
         free &= ~here
     return sorted(ranges, key=lambda found: found[0].low.at) if first.turns else ranges
+
+
+def positions_searched(course: Course, first: Path) -> int:
+    """The number of positions at which other ranges are sought."""
+    each = (FEWEST if course.tries_several else FEWER) if course.closers else GRID
+    return each * max(first.turns, 1)
 
 
 def shown(sweep: Sweep, path: Path) -> Path:

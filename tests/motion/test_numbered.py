@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.cli.report.cycle_report import pieces_words
+from graphkin.cli.report.cycle_report import pieces_words, range_words
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.following import GroupOnWay
 from graphkin.construction.higher_class.trial_rates import Spread, best_of, enlarged
@@ -154,7 +154,7 @@ def test_numbers_between_a_few_searches_are_those_of_a_search_at_every_place():
 
 def test_a_bracket_that_is_cut_has_its_closures_paired_anew(monkeypatch):
     """Pairs of the whole bracket lead nowhere in its parts: each part was searched on its own."""
-    text = (Path("examples/scenes/plates-ring.toml")).read_text(encoding="utf-8")
+    text = Path("examples/scenes/plates-ring.toml").read_text(encoding="utf-8")
     text = text.replace("O-A = 50", "O-A = 200").replace("angle = 255", "angle = 50")
     scene = read_text(text.replace("closure 2", "closure 1"), "ring", None, {})
     sweep = sweep_of(scene)
@@ -167,6 +167,14 @@ def test_a_bracket_that_is_cut_has_its_closures_paired_anew(monkeypatch):
     assert [number for _, number in found] == [4, 2, 1]
     assert [at for at, _ in found] == pytest.approx([25.0, 27.347645745, 38.605505478], abs=1e-7)
     assert len(searched) < 20
+
+
+def test_a_group_that_does_not_close_where_it_is_drawn_says_where_it_was_searched():
+    text = Path("examples/scenes/stephenson-3-crank.toml").read_text(encoding="utf-8")
+    text = text.replace("angle = 100", "angle = 30")  # |closure 3 is not there
+    found = cycle(Mechanism(read_text(text, "open", None, {})), steps=30)
+    assert found.path.searched == 360
+    assert "searched; a range between two of them is not seen" in range_words(found)
 
 
 def test_a_ring_with_a_link_that_hardly_turns_is_followed_to_its_dead_points():

@@ -332,6 +332,9 @@ def range_words(cycle: Cycle) -> list[str]:
         if sweep.is_length:
             line += beyond_words(low, high)
         lines.append(line)
+    if count := cycle.path.searched:
+        lines.append(f"it does not close where it is drawn: {count} positions of the driver were")
+        lines.append("searched; a range between two of them is not seen")
     return lines + list(circle_words(cycle.path))
 
 
