@@ -63,6 +63,8 @@ NEAR, CLEAR, AT = 1.4, 3.2, 0.6
 Between them, a ring about the point looks like the sides of a head. AT is the same as NEAR at a
 vector's tail.
 """
+PASSED = 2.8, 3.8
+"""Where a head beyond a point, in mm, is no ring about the point, though not clearly elsewhere."""
 SHORTEST = 9.0
 """Vectors shorter than this, in mm, have heads too small to be read."""
 NEAREST, FARTHEST = 0.3, 1.9
@@ -226,9 +228,9 @@ def vector_end(
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
     doubled = (at_tail and not turned) or ((along_line or shared) and elsewhere and head is None)
     only = here >= LIKELY and here > max(float(steady(there).max()), unsure) + LEAD
-    passed = steady(np.where(abs(along - long) <= CLEAR, share, -1.0)).max() >= HEADED > here
-    alone = marked and not passed and (plain or (crowded and here >= LIKELY))
-    ended = bool(here >= OWN or only or alone)
+    past = (along - long >= PASSED[0]) & (along - long <= PASSED[1])
+    alone = marked and steady(np.where(past, share, -1.0)).max() < LIKELY
+    ended = bool(here >= OWN or only or (alone and (plain or (crowded and here >= LIKELY))))
     if along_line:
         return VectorEnd(head, turned, doubled, open=not ended)
     beyond = drawn(ink, tip, way, BEYOND, pale)
