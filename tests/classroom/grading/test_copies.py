@@ -99,7 +99,7 @@ def test_who_copies_is_found_and_nobody_else(lab, kind, way, least):
 
 
 def test_whole_millimetres_agree_twice_as_often_as_halves():
-    """A student all of whose lengths are whole reads whole millimetres, whatever the ruler shows."""
+    """A student all of whose lengths are whole reads whole millimetres."""
     keys = Keys.of([marker_of("pump", 7).standard.expectation])
     halves, whole = keys.reading(0), keys.reading(0, whole=True)
     assert (whole == np.where(keys.lengths, 2.0, 1.0) * halves).all()
