@@ -385,7 +385,14 @@ def sheet(graded: Graded, keys: Keys, variant: int) -> AnswerSheet:
         *by_own_scales(answers, keys, variant, ~np.isnan(answers)),
         *from_own_values(graded, answers, keys, variant),
     )
-    return AnswerSheet(answers, digits, keys.reading(variant), wrong, variant, ways)
+    least = keys.reading(variant, whole=is_whole(answers[keys.lengths]))
+    return AnswerSheet(answers, digits, least, wrong, variant, ways)
+
+
+def is_whole(lengths: Any) -> bool:
+    """Whether a student reads whole millimetres: all lengths are, and they are not too few."""
+    known = lengths[~np.isnan(lengths)]
+    return len(known) >= FEW and bool((known % 1 == 0).all())
 
 
 def with_causes(each: AnswerSheet, graded: Graded, keys: Keys, ways: Ways) -> AnswerSheet:

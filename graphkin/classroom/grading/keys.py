@@ -83,15 +83,20 @@ class Keys(Struct, frozen=True, dict=True):
         computed = np.where(beside != np.flatnonzero(read), COMPUTED * sizes, 0.0)
         return Key(sizes, spread, computed, standard.cranks[:, read], self.places[read])
 
-    def reading(self, variant: int) -> Any:
+    def reading(self, variant: int, *, whole: bool = False) -> Any:
         """The rounding allowed to readings, in the fields' units.
 
-        Lengths are rounded to half a millimetre, the finest that a ruler shows. A length from which
-        a value is computed is rounded to a whole one.
+        Lengths are rounded to half a millimetre, the finest that a ruler shows, or to ``whole``
+        ones. A length from which a value is computed is rounded to a whole one.
         """
-        items = self.standards[variant].item
-        lengths = [items[f].what in ("segment", "place") for f in self.fields]
-        return self.rulers[variant] * STRAIGHT * np.where(lengths, 1.0, 2.0)
+        coarse = 2.0 if whole else 1.0
+        return self.rulers[variant] * STRAIGHT * np.where(self.lengths, coarse, 2.0)
+
+    @cached_property
+    def lengths(self) -> Any:
+        """The fields that are measured with a ruler."""
+        items = self.standards[0].item
+        return np.array([items[f].what in ("segment", "place") for f in self.fields])
 
     def tells(self, one: int, other: int, read: Any) -> bool:
         """Whether a fine drawing tells two variants apart by some fields."""

@@ -197,7 +197,7 @@ class Marker:
             elif field in caused or field in also or field in empty:
                 earned = NONE if field in lost else points
                 mark = replace(mark, status=Status.CAUSE, earned=earned, cause=name)
-                if found is not None and field not in also:
+                if found is not None and field not in also and field not in found.alone:
                     mark = replace(mark, by_cause=found.values[field])
             elif field in rest:
                 mark = self.following(mark, followed.get(field))

@@ -231,6 +231,7 @@ def test_each_plan_at_a_scale_of_its_own_is_one_cause():
     graded = one_of_a_class(lambda f, v: v * factors.get(f, 1.0))
     assert [cause.name for cause in graded.causes] == ["own_scale"]
     assert graded.share == Fraction("0.9")
+    assert graded.mark("v_D_mm").by_cause is None  # it is the student's own, which proves nothing
 
 
 def test_one_misread_length_beside_a_right_value_is_no_scale_of_ones_own():

@@ -17,6 +17,7 @@ from graphkin.classroom.grading.class_marking import graded_class
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.copied_answers import named as grouped
 from graphkin.classroom.grading.graded import SURE, Answer, Status
+from graphkin.classroom.grading.keys import Keys
 from tests.chosen import EVERY
 from tests.classroom.grading.classes import (
     COPYING,
@@ -95,6 +96,16 @@ def test_who_copies_is_found_and_nobody_else(lab, kind, way, least):
     for each in result.graded[: 120 if result.copies and not result.wrong_variants else 0]:
         alone = book_of(lab).marker_of(each.taker).mark(each.taker, answers[each.taker.student.id])
         assert each.marks == alone.marks
+
+
+def test_whole_millimetres_agree_twice_as_often_as_halves():
+    """A student all of whose lengths are whole reads whole millimetres."""
+    keys = Keys.of([marker_of("pump", 7).standard.expectation])
+    halves, whole = keys.reading(0), keys.reading(0, whole=True)
+    assert (whole == np.where(keys.lengths, 2.0, 1.0) * halves).all()
+    assert copied_answers.is_whole(np.array([93.0, 70.0, np.nan, 12.0]))
+    assert not copied_answers.is_whole(np.array([93.0, 70.0, 12.5]))
+    assert not copied_answers.is_whole(np.array([93.0, 70.0]))
 
 
 def test_pairs_are_not_chained():
