@@ -371,9 +371,13 @@ def is_place(target: Target) -> bool:
 
 
 def differences(drawing: ForceDrawing, found: ForceSolution) -> Iterator[float]:
-    """The differences of drawn reactions from those of the solution, and of the lever's balance."""
+    """The differences of drawn reactions from those of the solution, and of the lever's balance.
+
+    The solution has one force on each link in a pin. That of one link on a pin of three links is
+    drawn as the opposite of the force on it.
+    """
     values, size = drawing.trace.values, drawing.natural
-    forces = [each.force for each in found.reactions]
+    forces = [sign * each.force for each in found.reactions for sign in (1, -1)]
     largest = max([size, *map(abs, forces)], default=0.0) or 1.0
     drawn = {
         step.of.name: values[step.of.force]

@@ -233,7 +233,7 @@ class Reader(Trials):
         one, two = self.bearing
         other = two if one == p else one
         along = self.at(other) - self.at(p)
-        side = f" along {p}{q}, on the side of {q} from {p}"
+        side = f" along {p}{q}, on the same side of {p} as {q}"
         ways = f"{other} slides{side}", f"pin {other} slides in a slot{side}"
         if not any(item.startswith(ways) for item in self.items):
             raise DefectError(f"nothing tells on which side of {p} to lay off {p}{q}")

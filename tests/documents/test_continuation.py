@@ -201,7 +201,10 @@ def test_what_fills_no_large_sheet_goes_on_on_a4(name):
 
 @pytest.mark.parametrize("kind", [0, 1])
 def test_points_of_many_trial_plans_have_their_names_where_the_plan_is_drawn_larger(kind):
-    """Each is named once, and not on the sheet before; other letters stand on both."""
+    """They are not named on the sheet before; other letters stand on both.
+
+    Where so much meets that a letter of a trial has no place, it is left out: one in thirty at most.
+    """
     first, *_, second = rings("it")[kind].pages
     drawing = drawings("plates-ring")[kind]
     steps = drawing.trace.program.steps
@@ -216,7 +219,8 @@ def test_points_of_many_trial_plans_have_their_names_where_the_plan_is_drawn_lar
         for page in (first, second)
     ]
     assert len(trials) > 20
-    assert all(named[1].count(name) == 1 for name in trials)
+    assert max(named[1].count(name) for name in trials) == 1
+    assert sum(name not in named[1] for name in trials) <= len(trials) / 30
     assert not trials & {*named[0]}
     own = {symbol(step.name) for _, step, _ in drawing.steps(drawing.plane) if step.name} - trials
     assert own & {*named[0]} & {*named[1]}

@@ -30,6 +30,8 @@ from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import StructureError
 from tests.chosen import FOLDER, by_turns
+from tests.mechanisms import mechanism_of
+from tests.scene_files import scene_text
 
 SCENES = Path(__file__).parents[1] / "scenes" / "forces"
 NAMES = (
@@ -289,6 +291,15 @@ def test_a_reaction_that_acts_beyond_its_field_is_noted_and_not_drawn():
     right = next(m.x1 for m in page.marks if isinstance(m, LineMark) and m.name == "field-border")
     own = [m for m in page.marks if isinstance(m, LineMark) and m.name == "x_5"]
     assert all(max(m.x1, m.x2) < right for m in own)
+
+
+@pytest.mark.parametrize("first", [2, 3, 4])
+def test_a_heavy_rod_on_a_pin_of_three_links_is_drawn(first):
+    """Its force on the others is the opposite of that on it; the links have only their sums."""
+    text = scene_text("laws/three-links-on-a-pin", first=first, second=4)
+    text += '[ask]\nvelocity = ["E"]\nreactions = ["B", "D"]\nbalance = true\n'
+    mechanism = mechanism_of(text)
+    assert "force" in {each.kind for each in hand_out(mechanism, "key")}
 
 
 def test_the_diagrams_of_a_motion_show_the_forces_of_each_position():

@@ -196,8 +196,9 @@ def test_a_path_reaches_no_farther_into_the_margin_than_letters_leave(language, 
 
 
 def test_a_path_much_wider_than_the_mechanism_does_not_make_it_small():
-    """Of a bar through a turning block whose pin slides far, the path is cut by the field."""
-    drawing, *_ = drawings_of(*proof(scene(body=CONCHOID)), words("en"))
+    """Of a pin in a turning slot that a straight guide leads far away, the path is cut."""
+    body = scene_text("construction/tangent")
+    drawing, *_ = drawings_of(*proof(scene(body=body)), words("en"))
     (path,) = (curve for curve in drawing.curves if curve.kind == "trajectory")
     points = [point for run in path.runs for point in run]
     body = extent_of([*drawing.positions.values()])
@@ -206,7 +207,12 @@ def test_a_path_much_wider_than_the_mechanism_does_not_make_it_small():
     assert max(drawing.bare_extent().width, drawing.bare_extent().height) <= most
     field = lay_out(drawing).mechanism
     assert not all(field.holds(point) for point in points)
-    assert "∠*P**A**E* = 180°" in given(drawing)  # as written, not −180°
+
+
+def test_an_angle_is_given_as_it_is_written():
+    """180°, not −180°."""
+    drawing, *_ = drawings_of(*proof(scene(body=CONCHOID)), words("en"))
+    assert "∠*P**A**E* = 180°" in given(drawing)
 
 
 def test_a_straight_path_leaves_the_mechanism_as_large_as_its_ends_in_the_margin_let_it():

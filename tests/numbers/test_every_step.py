@@ -58,7 +58,7 @@ MANY |= {
     f"moments.{name}": ("ppppr", (2,))
     for name in ("tangential_part", "balancing_moment", "place_by_moments", "left_couple")
 }
-MANY["slide_pressure.slide_pressure"] = ("pprppr", (1, 1, 3))
+MANY["line_force.slide_pressure"] = ("pprppr", (1, 1, 3))
 MANY["line_force.line_force"] = ("ppr", (1,))
 MANY["tooth_force.tooth_force"] = ("ppr", (1, 0.36))
 """What steps take any number of, and what these are told; two points where nothing is said."""

@@ -23,7 +23,7 @@ from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.likelihood import ASTRAY, HALF, Key, fit
-from graphkin.classroom.grading.readings import FormFields, View
+from graphkin.classroom.grading.readings import OWN, FormFields, View
 from graphkin.classroom.grading.standard import Standard, alike, sense_is_open
 from graphkin.numbers.arithmetic import np
 
@@ -38,8 +38,6 @@ COMPUTED = 0.004
 """The relative error of a value computed from a length as it was read."""
 DIRECT = 0.15
 """How often a value is not computed from the length that was handed in."""
-OWN = 5.0
-"""The largest factor, up or down, by which a scale of one's own differs from the right one."""
 SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
 LIKELY = 3.0

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from itertools import combinations
-from math import degrees, pi
+from math import degrees, log, pi
 from typing import Any
 
 from msgspec import Struct
@@ -38,8 +38,9 @@ from graphkin.numbers.arithmetic import np
 Array = Any
 FEW = 2
 """The fewest answers that determine a factor of a student's own."""
-ODD = 1.07
-"""The least factor, up or down, by which a scale of one's own differs from the right one."""
+ODD, OWN = 1.07, 5.0
+"""The least and the largest factor, up or down, by which a scale of one's own differs from the right
+one. Three answers that agree may show a larger one."""
 FREE = -3.5
 """How rare a factor that is fitted to several answers is, as a logarithm, beside a known one."""
 POWER = -1.0
@@ -369,9 +370,10 @@ def by_plan(form: FormFields, mask: Array) -> Reads:
             here = mask & (form.plans == plan)
             if here.any():
                 factor = view.factor(shown, here, 1)
-                changed = only(here, shown * factor, changed)
                 read = here & ~np.isnan(view.answers)
                 single = read.sum(axis=1, keepdims=True) == 1
+                factor = np.where(single & (abs(np.log(factor)) > log(OWN)), 1.0, factor)
+                changed = only(here, shown * factor, changed)
                 alone |= read & single & (factor != 1)
                 fitted += (~single & (factor != 1))[:, 0]
         return Told(changed, price=FREE * fitted, alone=alone)
