@@ -135,7 +135,7 @@ def grade(  # noqa: PLR0915
     file for each student, in a folder of its own or not, as Moodle and Canvas deliver submissions.
 
     Numbers may have a decimal comma or point, and a unit. A sense is + or -, ccw or cw, or words in
-    English, Romanian or Italian (în sens orar, anticlockwise). A sense that contradicts the sign of
+    a language of the sheets (în sens orar, anticlockwise). A sense that contradicts the sign of
     its own value earns nothing. An empty cell is an unanswered field; an empty row is a form that
     was not handed in.
 

@@ -908,15 +908,9 @@ def small_diagram(
     unit = each.unit.replace("²", "^2").replace("³", "^3")
     yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
     yield from numbers_along(found.shown.alone.words, axes, each.name, 1.0, 4)
-    both = zip(fine, each.fine, strict=True)
-    yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], each.kind, each.name)
     names = position_names(found, at)
-    for name, u, value in zip(names, at, each.at_positions, strict=True):
-        x, y = axes.on_page(axes.place(float(u), float(value)))
-        if isfinite(y) and top <= y <= low:
-            for way in (1, -1):
-                ends = (x - CROSS, y - way * CROSS, x + CROSS, y + way * CROSS)
-                yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))
+    for name, u in zip(names, at, strict=True):
+        x, _ = axes.on_page(axes.place(float(u), 0.0))
         yield LineMark(x, zero - 0.8, x, zero + 0.8, "dimension", f"position {name}")
         if len(names) <= MANY or int(name) % 2 == 0:
             below = not np.interp(u, fine, each.fine) < 0  # away from the curve
@@ -930,3 +924,11 @@ def small_diagram(
                 f"position {name}",
             )
             yield from cleared(number)
+    both = zip(fine, each.fine, strict=True)
+    yield from curve(axes, [axes.place(float(u), float(v)) for u, v in both], each.kind, each.name)
+    for name, u, value in zip(names, at, each.at_positions, strict=True):
+        x, y = axes.on_page(axes.place(float(u), float(value)))
+        if isfinite(y) and top <= y <= low:
+            for way in (1, -1):
+                ends = (x - CROSS, y - way * CROSS, x + CROSS, y + way * CROSS)
+                yield LineMark(*ends, f"centre {each.kind}", at_position(each.name, name))

@@ -21,7 +21,7 @@ from graphkin.construction.core.component import (
 )
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.given_data import Datum, of_driver
+from graphkin.construction.core.given_data import Datum, of_driver, other_parameters
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.pen import PRIME, image_name
@@ -337,11 +337,15 @@ def force_relations(drawing: Drawing) -> list[tuple[str, list[Relation]]]:
 
 
 def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
-    """The motion of drivers, masses, moments of inertia, gravity and loads as data."""
+    """The parameters, the motion of drivers, masses, moments of inertia, gravity and loads."""
     scene, words = drawing.scene, drawing.words
     forces = scene.forces
     assert forces is not None
     found = [
+        Datum(name=name, value=value, parameters=(of,))
+        for of, name, value in other_parameters(scene, words)
+    ]
+    found += [
         piece
         for driver in scene.drivers
         for piece in of_driver(scene, words, driver, solved=solved, laws=True)

@@ -90,6 +90,10 @@ def gravity(top: Table, measures: Measures) -> Components | None:
         return None
     if raw is True:
         return exact(0, "m/s²"), measures.number("gravity", f"-{GRAVITY}", "m/s²")
+    if not isinstance(raw, list):
+        expected = message("true for {g} m/s² downwards, or components [x, y]", g=GRAVITY)
+        top.findings.add("gravity", shown(raw), expected)
+        return None
     return components(top, "gravity", raw, "m/s²", measures)
 
 

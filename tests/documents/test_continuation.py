@@ -203,7 +203,7 @@ def test_what_fills_no_large_sheet_goes_on_on_a4(name):
 def test_points_of_many_trial_plans_have_their_names_where_the_plan_is_drawn_larger(kind):
     """They are not named on the sheet before; other letters stand on both.
 
-    Where so much meets that a letter of a trial has no place, it is left out: one in thirty at most.
+    Where so much meets that a letter of a trial has no place, it is left out: one in thirty.
     """
     first, *_, second = rings("it")[kind].pages
     drawing = drawings("plates-ring")[kind]

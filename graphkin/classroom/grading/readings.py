@@ -39,8 +39,8 @@ Array = Any
 FEW = 2
 """The fewest answers that determine a factor of a student's own."""
 ODD, OWN = 1.07, 5.0
-"""The least and the largest factor, up or down, by which a scale of one's own differs from the right
-one. Three answers that agree may show a larger one."""
+"""The least and the largest factor, up or down, by which a scale of one's own differs from the
+right one. Three answers that agree may show a larger one."""
 FREE = -3.5
 """How rare a factor that is fitted to several answers is, as a logarithm, beside a known one."""
 POWER = -1.0
