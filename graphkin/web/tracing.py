@@ -11,7 +11,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.program import Program
+from graphkin.construction.core.program import Program, Step
 from graphkin.construction.core.run import Trace, made_ready, run_moving
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of
@@ -42,6 +42,11 @@ MOST_ROUND = 2
 """Circles of the driver on each side of its range through which a page knows the closures."""
 SLACK = 1e-6
 """Tolerance on a bar's length at closure, in parts of the mechanism's size."""
+
+
+def form(step: Step) -> tuple[object, ...]:
+    """What steps have in common that differ in their numbers alone."""
+    return step.action, step.args, len(step.extra)
 
 
 class Tracing(Struct, frozen=True, dict=True):
@@ -89,7 +94,8 @@ class Tracing(Struct, frozen=True, dict=True):
     def sided(self, program: Program) -> Program:
         """The program, with the closures that the motion takes beyond its change points.
 
-        The number that selects the side of a step then depends on the driver's place.
+        The number that selects the side of a step then depends on the driver's place. Where another
+        closure is constructed by other steps, the page keeps the one that is drawn.
         """
         pieces, scene = self.path.ranges[0], self.mechanism.scene
         if len(pieces) == 1 or pieces[0].course.closers:
@@ -100,6 +106,8 @@ class Tracing(Struct, frozen=True, dict=True):
             Mechanism(replace(scene, branches={**scene.branches, **piece.branches})).program.steps
             for piece in pieces
         ]
+        if len({tuple(map(form, steps)) for steps in along}) > 1:
+            return program
         steps = list(program.steps)
         for n, every in enumerate(zip(*along, strict=True)):
             extra = every[0].extra

@@ -57,6 +57,12 @@ class Outline(Struct, frozen=True):
         """Positions of all points, in the figure's unit."""
         return {name: place * self.factor for name, place in self.drawing.positions.items()}
 
+    @property
+    def corners(self) -> np.ndarray:
+        """Two corners of the box around all that is drawn, cams and wheels too."""
+        box = self.drawing.bare_extent()
+        return np.array([complex(box.left, box.bottom), complex(box.right, box.top)]) * self.factor
+
     def breadth(self) -> float:
         """The longer side of the box around the mechanism."""
         every = np.array(list(self.places.values()))
@@ -144,7 +150,7 @@ def paths(found: Sampled) -> Page:
     curves = {
         name: np.asarray(found.solution.points[name].position) * found.per_length for name in names
     }
-    box = box_of([np.array(list(stand.places.values())), *curves.values()])
+    box = box_of([stand.corners, *curves.values()])
     lines = [
         ChartCurve(f"path of {symbol(name)}", found.broken(curve), i)
         for i, (name, curve) in enumerate(curves.items())
@@ -189,7 +195,7 @@ def both_centrodes(found: Sampled, link: str) -> Page:
     here = at_scene(found, link)
     fixed = both.fixed * found.per_length
     moving = both.placed(*here[:2]) * found.per_length
-    places = np.array(list(stand.places.values()))
+    places = stand.corners
     touch = here[2] * found.per_length
     window = near_box(places, [fixed, moving], stand.breadth(), touch)
     curves = [
@@ -283,7 +289,7 @@ def reach(found: Sampled, loop: Loop) -> Page:
         half = 1j * loop.reach.line.along * loop.reach.half
         foot = foot_of(loop.reach, loop) if isinstance(loop.path, Ring) else loop.reach.line.point
         parts.append(np.array([foot + half, foot - half]) * factor)
-    box = box_of([np.array(list(stand.places.values())), *parts])
+    box = box_of([stand.corners, *parts])
     what = "What the driven pin passes, and what the rest can reach"
     plane = plane_of(found, what, box, [*limits(loop, factor, box), *pin_path(loop, factor)])
     below = [*area_in(plane, rim_of(loop, factor, box), "shade"), *outline(stand, plane)]
