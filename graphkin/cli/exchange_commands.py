@@ -54,10 +54,11 @@ def import_scene(
     """Write a mechanism of another program as a scene.
 
     FILE is a .pmks or .csv file of PMKS+, a .linkage2 file of Linkage, a .json file of pylinkage,
-    a .pyslvs file of Pyslvs, or a drawing. LINK is an address by which PMKS+ or the older PMKS
-    shares a mechanism, in quotes; it is read, never opened. An expression M[J[…], …] of Pyslvs is
-    given in quotes or in a file. The scene has the closure that is nearest to the drawing. What a
-    scene cannot hold is named on standard error, and in comments at the head of the scene.
+    a .motiongen file of MotionGen, a .pyslvs file of Pyslvs, or a drawing. LINK is an address by
+    which PMKS+ or the older PMKS shares a mechanism, in quotes; it is read, never opened. An
+    expression M[J[…], …] of Pyslvs is given in quotes or in a file. The scene has the closure that
+    is nearest to the drawing. What a scene cannot hold is named on standard error, and in comments
+    at the head of the scene.
 
     A drawing is a .ggb file of GeoGebra or a DXF file (needs the extra [cad]). Its segments become
     bars, to scale. It does not say what is fixed: name the fixed points with --fixed. Without

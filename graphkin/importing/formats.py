@@ -89,6 +89,10 @@ def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
             from graphkin.importing.pyslvs import project_text
 
             return project_text(text)
+        if text.startswith("{") and '"jointIds"' in text:
+            from graphkin.importing.motiongen import motiongen_text
+
+            return motiongen_text(text)
         if text.startswith("{") and '"joints"' in text:
             from graphkin.importing.pylinkage import pylinkage_text
 
@@ -111,6 +115,6 @@ def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
         message("the text has no format that is imported"),
         message(
             "a link or a file of PMKS+, a file .linkage2 of Linkage, JSON of pylinkage,"
-            " M[J[…], …] of Pyslvs, a .ggb file of GeoGebra, or a DXF file"
+            " a file of MotionGen, M[J[…], …] of Pyslvs, a .ggb file of GeoGebra, or a DXF file"
         ),
     )

@@ -45,6 +45,7 @@ from graphkin.importing.record import (
     few,
     named,
     number,
+    one_at_welds,
     refused,
     unknown_unit,
 )
@@ -123,7 +124,7 @@ def new_text(text: str) -> Imported:
     ]
     settings = ALPHABET.index(flags[-1])
     unit = unit_of(units[:1], UNITS, notes)
-    holders = one_at_welds(found, bodies)
+    holders = one_at_welds([own for own, each in found.items() if each.welded], bodies)
     masses = tuple(place_masses(weights, holders, found, bodies, unit))
     speed = rpm(speeds) * (-1 if settings & CLOCKWISE else 1)
     mechanism = gathered(found, bodies, unit, speed, notes)
@@ -222,19 +223,6 @@ def rpm(speeds: str) -> float:
     rounded, *others = map(whole, speeds.split(","))
     exact = others[1] / EXACT if len(others) > 1 else rounded
     return exact if round(exact) == rounded else rounded
-
-
-def one_at_welds(found: Mapping[str, PmksJoint], bodies: dict[str, DrawnLink]) -> dict[str, str]:
-    """Join the links that meet at a welded joint, and tell which link each has become."""
-    holders = {own: own for own in bodies}
-    for own, drawn in found.items():
-        at = [name for name, body in bodies.items() if drawn.welded and own in body.joints]
-        for other in at[1:]:
-            one, gone = bodies[at[0]], bodies.pop(other)
-            joints = dict.fromkeys((*one.joints, *gone.joints))
-            bodies[at[0]] = DrawnLink(f"{one.name}+{gone.name}", tuple(joints))
-            holders = {part: at[0] if to == other else to for part, to in holders.items()}
-    return holders
 
 
 def new_joint(line: str) -> tuple[str, PmksJoint]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import isfinite
 from xml.etree.ElementTree import Element, ParseError
 
@@ -108,6 +108,19 @@ class Imported(Struct, frozen=True):
     loads: tuple[DrawnLoad, ...] = ()
     masses: tuple[DrawnMass, ...] = ()
     gravity: bool = False
+
+
+def one_at_welds(welded: Iterable[str], bodies: dict[str, DrawnLink]) -> dict[str, str]:
+    """Join the links that meet at welded joints, and tell which link each has become."""
+    holders = {own: own for own in bodies}
+    for joint in welded:
+        at = [name for name, body in bodies.items() if joint in body.joints]
+        for other in at[1:]:
+            one, gone = bodies[at[0]], bodies.pop(other)
+            joints = dict.fromkeys((*one.joints, *gone.joints))
+            bodies[at[0]] = DrawnLink(f"{one.name}+{gone.name}", tuple(joints))
+            holders = {part: at[0] if to == other else to for part, to in holders.items()}
+    return holders
 
 
 def refused(found: Message, expected: Message = NO_WORDS) -> SceneError:
