@@ -129,6 +129,10 @@ def test_the_board_says_why_nothing_can_be_drawn(opened: Opened, folder: Path, l
     assert log_of(page).count(BETWEEN) == 1
 
 
+WRITTEN = 500
+"""Milliseconds in which a busy browser passes what a page keeps on to the page that is reloaded."""
+
+
 def log_of(page: Any) -> str:
     """The moves that the form holds."""
     return page.locator("form.answers [name=drawing]").input_value()
@@ -306,6 +310,7 @@ def test_what_is_drawn_is_kept_taken_back_and_drawn_again(opened: Opened, folder
     page = fresh(opened, page_of(folder, "0043"))
     typed(page, "ray O1 48\noff O1 48 60 /1\nA\narc A AB")
     whole = log_of(page)
+    page.wait_for_timeout(WRITTEN)
     page.reload()
     assert log_of(page) == whole
     page.locator("body").press("Control+z")
