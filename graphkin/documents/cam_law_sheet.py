@@ -21,7 +21,6 @@ from graphkin.documents.diagrams_sheet import (
     LETTERS,
     OVER,
     POINT,
-    SMALL,
     Axes,
     axis_lines,
     cleared,
@@ -291,7 +290,7 @@ def pieces_named(law: CamLaw, axes: Axes) -> Iterator[Mark]:
         if piece.slopes is None and wide > 12:
             said = words(moved if moves else "page.motion_dwell")
             at = x, axes.rect[1] - 0.6
-            yield Text(*at, said, "caption", SMALL, "middle", "motion")
+            yield Text(*at, said, "caption", LETTERS, "middle", "motion")
 
 
 def cam_numbers(law: CamLaw, axes: Axes) -> Iterator[Mark]:
@@ -304,7 +303,7 @@ def cam_numbers(law: CamLaw, axes: Axes) -> Iterator[Mark]:
         x, _ = axes.on_page(axes.place(k * pace / per, 0.0))
         text = drawing.words.decimal(f"{k * pace:.6g}") + ("" if law.cam.slides else "°")
         yield LineMark(x, axes.rect[3] - 0.8, x, axes.rect[3] + 0.8, "dimension", "axis θ")
-        yield Text(x, axes.rect[3] + 3.4, text, "caption", SMALL, "middle", "axis θ")
+        yield Text(x, axes.rect[3] + 3.4, text, "caption", LETTERS, "middle", "axis θ")
 
 
 def way_letter(law: CamLaw) -> str:
@@ -333,7 +332,7 @@ def steepest_marks(law: CamLaw, frames: Sequence[Axes], every: Sequence[Strip]) 
         at: XY = rate.on_page(rate.place(u, slope))
         yield CircleMark(*at, POINT, "point velocity", name)
         text, aside = number_of(law, every[1], slope), -1.2 if sign > 0 else 3.0
-        beside = Text(at[0] + 2.2, at[1] + aside, text, "caption", SMALL, name=name)
+        beside = Text(at[0] + 2.2, at[1] + aside, text, "caption", LETTERS, name=name)
         yield from cleared(beside)
 
 

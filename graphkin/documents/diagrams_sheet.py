@@ -67,8 +67,8 @@ OVER, GAP = 6.0, 7.0
 """The room above the first diagram, and between two, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
-LETTERS, SMALL = 2.5, 2.5
-"""Heights of letters in mm."""
+LETTERS = 2.5
+"""Height of letters in mm."""
 POLES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.0)
 """Possible distances of a pole from its axis, in mm."""
 FILLED = 0.92
@@ -156,7 +156,7 @@ def frame_of(
     for i, u in enumerate(motion.at):
         x, _ = axes.on_page(axes.place(float(u), 0.0))
         yield LineMark(x, top, x, low, "register", f"position {i}")
-        yield Text(x + 0.7, axes.zero + 3.2, names[i], "caption", SMALL, name=f"position {i}")
+        yield Text(x + 0.7, axes.zero + 3.2, names[i], "caption", LETTERS, name=f"position {i}")
     if not is_zero:
         yield from numbers_along(words, axes, name, factor, TICKS)
 
@@ -187,7 +187,7 @@ def numbers_along(words: Words, axes: Axes, name: str, factor: float, count: int
         yield LineMark(left - 1.2, y, left + 1.2, y, "dimension", f"axis {name}")
         if k:
             number = words.decimal(f"{k * pace:.6g}")
-            yield from cleared(Text(left - 2, y + 0.7, number, "caption", SMALL, "end", "axis"))
+            yield from cleared(Text(left - 2, y + 0.7, number, "caption", LETTERS, "end", "axis"))
 
 
 def cleared(text: Text) -> Iterator[Mark]:
@@ -361,9 +361,11 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
         pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
     )
     caption = f"*H* = {abs(found.distance):g} mm"
-    if abs(found.distance) > extent(caption, SMALL)[0] + 3:
+    if abs(found.distance) > extent(caption, LETTERS)[0] + 3:
         at = (pole[0] + foot) / 2, axes.zero + 3.2
-        yield from cleared(Text(*at, caption, "caption", SMALL, "middle", f"pole distance {name}"))
+        yield from cleared(
+            Text(*at, caption, "caption", LETTERS, "middle", f"pole distance {name}")
+        )
 
 
 # --- the sheet of differentiation -----------------------------------------------------------------
@@ -531,9 +533,9 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
     anchor: Anchor = "start" if behind else "end"
     yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
     caption = f"*H* = {abs(found.distance):g} mm"
-    if abs(found.distance) > extent(caption, SMALL)[0] + 3:
+    if abs(found.distance) > extent(caption, LETTERS)[0] + 3:
         at = (pole[0] + foot) / 2, first.zero + 3.2
-        yield from cleared(Text(*at, caption, "caption", SMALL, "middle", "pole distance"))
+        yield from cleared(Text(*at, caption, "caption", LETTERS, "middle", "pole distance"))
 
 
 def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:
@@ -919,7 +921,7 @@ def small_diagram(
                 zero + (3.2 if below else -1.4),
                 name,
                 "caption",
-                SMALL,
+                LETTERS,
                 "middle",
                 f"position {name}",
             )

@@ -7,7 +7,7 @@ Slots, cylinders and linear actuators are refused. The keys are those that two p
 
 from __future__ import annotations
 
-from math import degrees, radians
+from math import pi
 
 from msgspec import MsgspecError, Struct, field
 from msgspec.json import decode
@@ -20,6 +20,7 @@ from graphkin.importing.record import (
     Imported,
     damaged,
     few,
+    letter_of,
     named,
     one_at_welds,
     refused,
@@ -102,10 +103,9 @@ def motiongen_text(text: str) -> Imported:
         notes.append(unknown_unit(unit, USUAL))
         unit = USUAL
     fixed = {joint for link in found.links if link.is_ground for joint in link.joints}
-    letters = {each.id: letter(place) for place, each in enumerate(found.joints)}
     joints = {
-        each.id: DrawnJoint(letters[each.id], place_of(each), each.id in fixed)
-        for each in found.joints
+        each.id: DrawnJoint(letter_of(place), place_of(each), each.id in fixed)
+        for place, each in enumerate(found.joints)
     }
     moving = (link for link in found.links if not link.is_ground)
     bodies = {
@@ -114,15 +114,15 @@ def motiongen_text(text: str) -> Imported:
     if any(joint not in joints for body in bodies.values() for joint in body.joints):
         raise damaged()
     one_at_welds([each.id for each in found.joints if each.welded], bodies)
-    inputs = tuple(driven(each, file.settings.angle, bodies, fixed) for each in found.actuators)
-    for each in found.actuators:
-        notes.append(speed_note(each, file.settings.angle))
+    unit_angle = pi / 180 if file.settings.angle == "deg" else 1.0
+    speeds = [each.velocity * unit_angle for each in found.actuators]
+    motors = zip(found.actuators, speeds, strict=True)
+    inputs = tuple(driven(each, speed, bodies, fixed) for each, speed in motors)
+    notes += [
+        message("the speed {speed} is taken as radians per second", speed=f"{speed:g}")
+        for speed in speeds
+    ]
     return Imported(PROGRAM, unit, ROUNDING, joints, bodies, (), inputs, tuple(notes))
-
-
-def letter(place: int) -> str:
-    """The name of a joint by its place in the file, which has none: A to Z, then P26, P27 …"""
-    return chr(ord("A") + place) if place < 26 else f"P{place}"
 
 
 def place_of(joint: FileJoint) -> complex:
@@ -147,20 +147,13 @@ def refuse_unknown(found: FileMechanism) -> None:
 
 
 def driven(
-    motor: FileActuator, angle: str, bodies: dict[str, DrawnLink], fixed: set[str]
+    motor: FileActuator, speed: float, bodies: dict[str, DrawnLink], fixed: set[str]
 ) -> DrawnInput:
-    """The driver of a motor, in rev/min: the link from its joint to the driven one."""
+    """The driver of a motor at a speed in rad/s: the link from its joint to the driven one."""
     own, other = (
         next((name for name, body in bodies.items() if {motor.at, joint} <= {*body.joints}), "")
         for joint in (motor.driven, motor.start)
     )
     if not own or (motor.at not in fixed and not other):
         raise damaged()
-    turned = motor.velocity if angle == "deg" else degrees(motor.velocity)
-    return DrawnInput(own, turned / 6, motor.at, "" if motor.at in fixed else other)
-
-
-def speed_note(motor: FileActuator, angle: str) -> Message:
-    """The note on the unit of a motor's speed, which a file does not say."""
-    speed = motor.velocity if angle != "deg" else radians(motor.velocity)
-    return message("the speed {speed} is taken as radians per second", speed=f"{speed:g}")
+    return DrawnInput(own, speed * 30 / pi, motor.at, "" if motor.at in fixed else other)

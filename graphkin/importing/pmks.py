@@ -43,6 +43,7 @@ from graphkin.importing.record import (
     Imported,
     damaged,
     few,
+    letter_of,
     named,
     number,
     one_at_welds,
@@ -60,8 +61,8 @@ POUND = 0.45359237
 UNITS_OF_MASS = {"in": (POUND, POUND * 0.0254**2), "cm": (1e-3, 1e-4), "m": (1.0, 1.0)}
 """Kilograms and kg·m² in one unit of mass and of moment of inertia, by the unit of length: lb and
 lb·in²; g, but kg·cm²; kg and kg·m² (the examples of github.com/PMKS-Web/PMKSWeb)."""
-UNTOUCHED = 1.0
-"""The mass of a link that nobody has changed."""
+UNTOUCHED, UNSET = 1.0, "Null"
+"""The mass of a link that nobody has changed, and that of a piston in an old text."""
 LOCAL, OUTWARD = 1, 2
 """Flags of a force: it turns with its link; its arrow points away from the link."""
 CLOCKWISE, GRAVITY = 1, 2
@@ -251,11 +252,14 @@ def old_text(text: str) -> Imported:
         turned = number(angle) if kind == "P" else 0.0
         found[own] = PmksJoint(joint, driven == "t", kind == "P", turned)
     bodies = {}
+    masses = []
     for line in filter(None, fields["l"][0].splitlines()):
-        own, _, _, _, _, _, held, *_ = line.split(",")
+        own, _, mass, _, _, _, held, *_ = line.split(",")
+        masses.append(mass)
         bodies[own] = DrawnLink(own, tuple(held.split("|")))
     forces = fields.get("f", [""])[0].splitlines()
     notes = [left_out(force.split(",")[0]) for force in filter(None, forces)]
+    notes += masses_left_out(masses)
     speed, clockwise, _, unit = fields["s"][0].strip().split(",")[:4]
     signed = number(speed, -1.0 if clockwise == "true" else 1.0)
     return gathered(found, bodies, unit_of(unit, OLD_UNITS, notes), signed, notes)
@@ -276,6 +280,7 @@ def csv_text(text: str) -> Imported:
         row["id"]: DrawnLink(row["id"], tuple(row["joints"].split(","))) for row in rows["links"]
     }
     notes = [left_out(row["id"]) for row in rows["forces"]]
+    notes += masses_left_out(row.get("mass", UNSET) for row in rows["links"])
     settings = rows["settings"][0]
     speed = number(settings["input_speed_mag"], -1.0 if settings["clockwise"] == "true" else 1.0)
     return gathered(found, bodies, unit_of(settings["unit"], OLD_UNITS, notes), speed, notes)
@@ -364,6 +369,12 @@ def left_out(force: str) -> Message:
     return message("force {name} is left out", name=named(force))
 
 
+def masses_left_out(masses: Iterable[str]) -> Iterator[Message]:
+    """A note where somebody has changed a mass in an old text or a CSV file."""
+    if any(mass != UNSET and number(mass) != UNTOUCHED for mass in masses):
+        yield message("the masses of the links are left out")
+
+
 def decimal(text: str) -> float:
     """A number of thousandths."""
     return number(str(whole(text)), 1 / THOUSANDTH)
@@ -402,7 +413,7 @@ def mech_text(text: str) -> Imported:
     inputs: list[DrawnInput] = []
     speed = next((s[1:] for s in fields.get("set", [""])[0].split("|") if s[:1] == "s"), "1")
     for place, line in enumerate(lines):
-        own = chr(ord("A") + place) if place < 26 else f"P{place}"
+        own = letter_of(place)
         kind = next((each for each in line if each in TYPES), None)
         if kind is None:
             raise damaged()

@@ -110,6 +110,11 @@ class Imported(Struct, frozen=True):
     gravity: bool = False
 
 
+def letter_of(place: int) -> str:
+    """The name of a joint without one, by its place in the file: A to Z, then P26, P27 …"""
+    return chr(ord("A") + place) if place < 26 else f"P{place}"
+
+
 def one_at_welds(welded: Iterable[str], bodies: dict[str, DrawnLink]) -> dict[str, str]:
     """Join the links that meet at welded joints, and tell which link each has become."""
     holders = {own: own for own in bodies}

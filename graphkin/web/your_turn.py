@@ -47,12 +47,12 @@ PLANES = (
     Plane.FORCES,
 )
 """The drawings, in the order of their numbers on the page."""
-PLANS = {
-    1: "sheet.velocity",
-    2: "sheet.acceleration",
-    4: "sheet.force",
+PLAN_NAMES = {
+    Plane.VELOCITIES: "sheet.velocity",
+    Plane.ACCELERATIONS: "sheet.acceleration",
+    Plane.FORCES: "sheet.force",
 }
-"""The numbers of the plans, and the keys of their names."""
+"""The plans, and the keys of their names."""
 LAID_OFF: tuple[Action, ...] = (lay_off, lay_back)
 """The actions that lay off a component of an acceleration from a point of a plan."""
 
@@ -321,7 +321,7 @@ class MoveFinder:
 
     def by_move(self, move: Move, number: int, drawn: Step) -> Way | None:
         """A move with its inputs; None if this drawing has no such move or place."""
-        if move.in_plan and PLANES.index(self.steps[number].plane) not in PLANS:
+        if move.in_plan and self.steps[number].plane not in PLAN_NAMES:
             return None
         if move.action.shape == "point" and self.place(number) is None:
             return None
@@ -753,7 +753,7 @@ def record(
         "owner": [owner.stem, owner.id, owner.code],
         "seconds": seconds(sheets, turn),
         "shorter": turn.shorter,
-        "plans": {plan: words(key) for plan, key in PLANS.items()},
+        "plans": {PLANES.index(plan): words(key) for plan, key in PLAN_NAMES.items()},
         "units": [words.unit(unit) for unit in ("m/s", "m/s²")],
         "fields": [
             [plane_of(sheet), *map(frame, (sheet.layout.mechanism, sheet.layout.plan))]

@@ -88,7 +88,7 @@ LOOK = """
 import json, sys
 import tomlkit
 from graphkin.classroom.lab.items import asked_fields
-from graphkin.classroom.lab.new_lab import fields_of
+from graphkin.classroom.lab.new_lab import meaning
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.cycle_report import cycle_table
 from graphkin.cli.report.motion_report import motion_text
@@ -123,7 +123,7 @@ print(json.dumps({
     "witnessed": [*examine(one.scene, solution, None).differences.names],
     "fields": [item.field for item in places],
     "probes": len(probes(one, places)),
-    "meaning": fields_of(one)["T_2_x_mm"],
+    "meaning": meaning(items["T_2_x_mm"]),
     "list": ask_words(one.scene.ask),
     "asked": [*asked_words(drawing)],
     "marks": sorted({mark.name for mark in sheet(drawing, "key", "1/2")[0].marks if mark.name}),

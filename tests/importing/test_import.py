@@ -670,3 +670,12 @@ def test_the_driver_gives_the_energy_that_the_masses_take(name, settings, gravit
     assert verdict.agrees
     (balance,) = solved.balance
     assert float(balance.moment) * omega + power == pytest.approx(change, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["old-slider-crank", "old-four-bar"])
+def test_changed_masses_of_an_old_link_are_named(name):
+    """The unit of its masses is not known; that of nobody's masses need not be."""
+    words = "masses of the links are left out"
+    assert not any(words in note for note in imported(LINKS[name]).notes)
+    heavier = LINKS[name].replace("l=ab,R,1,1,", "l=ab,R,2.5,1,")
+    assert any(words in note for note in imported(heavier).notes)

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.readings import FormFields
 from graphkin.classroom.grading.standard import standard
-from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges, space_of
+from graphkin.classroom.lab.fair_ranges import FairRanges, ends, fair_ranges, space_of
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.fairness_words import draw_words, limit_words
 from graphkin.classroom.lab.items import (
@@ -329,11 +329,6 @@ SHEET = {sheet[0]: sheet for sheet in SHEETS}
 """The sheet for the first letter of an arrow's symbol."""
 
 
-def fields_of(mechanism: Mechanism) -> Mapping[str, str]:
-    """Every field that a rubric of a mechanism may name, with its meaning."""
-    return {name: meaning(item) for name, item in all_fields(mechanism).items()}
-
-
 def kinds() -> Mapping[str, str]:
     """Every kind of field with its meaning, by its names for point B, link 3 and block 2."""
     return {item.field: meaning(item) for item in examples()}
@@ -464,7 +459,7 @@ POSITION = re.compile(r"(?m)^\s*(angle|position)\s*=\s*([-+]?\d+(?:\.\d+)?)(?=\s
 TURNS = {"deg": (360.0, 5.0), "rad": (2 * pi, 0.1)}
 """A whole turn, and the step in which the angle of a driver varies, by the unit."""
 SPREAD = 0.3
-"""The share by which the position of a driven slide varies."""
+"""The share by which the position of a driver along a line varies."""
 TABLE = re.compile(r"(?m)^\[")
 PARAMETERS = re.compile(r"(?m)^\[parameters\].*\n")
 
@@ -477,22 +472,22 @@ def with_parameter(text: str, name: str) -> tuple[str, str]:
     scene = read_text(text, name)
     first = text.find("[[drivers]]")
     found = POSITION.search(text, first) if first >= 0 else None
-    ended = any(each.minimum and each.maximum for each in scene.parameters.values())
-    if ended or found is None or "[" in text[first + len("[[drivers]]") : found.start()]:
+    ranged = any(ends(each) is not None for each in scene.parameters.values())
+    if ranged or found is None or "[" in text[first + len("[[drivers]]") : found.start()]:
         return text, ""
-    slides = scene.drivers[0].kind == "slide"
-    letter, value = "s" if slides else "phi", float(found[2])
+    turns = scene.drivers[0].kind == "turn"
+    letter, value = "phi" if turns else "s", float(found[2])
     names = (letter, *(f"{letter}_{i}" for i in range(1, len(scene.parameters) + 1)))
     own = next(each for each in names if each not in scene.parameters)
-    if slides:
-        step = 10 ** floor(log10(abs(value) * SPREAD / 5)) if value else 1.0
-        low, high = sorted((value * (1 - SPREAD), value * (1 + SPREAD))) if value else (-10.0, 10.0)
-    else:
+    if turns:
         turn, step = TURNS[scene.units["angle"]]
         value, low, high = value % turn, 0.0, turn - step / 2
-    ends = ceil(low / step), floor(high / step)
-    here = min(round(value / step), ends[1])
-    value, low, high = (step * each for each in (here, *ends))
+    else:
+        low, high = sorted((value * (1 - SPREAD), value * (1 + SPREAD))) if value else (-10.0, 10.0)
+        step = 10 ** floor(log10((high - low) / 10))
+    least, most = ceil(low / step), floor(high / step)
+    here = min(round(value / step), most)
+    value, low, high = (step * each for each in (here, least, most))
     line = f"{own} = {{ value = {value:g}, min = {low:g}, max = {high:g}, step = {step:g} }}"
     text = f'{text[: found.start(2)]}"{own}"{text[found.end(2) :]}'
     end = "\r\n" if "\r\n" in text else "\n"
@@ -517,26 +512,28 @@ def rules_for(mechanism: Mechanism, proposed: ProposedRanges | None = None) -> s
     ranges = space_of(mechanism.scene) if proposed is None else proposed.ranges
     head = ["graphkin = 1", "", *variants_lines(ranges, COURSE), "", ""]
     fair = re.sub(r"(?m)^# apart = \S+", lambda line: f"apart = {APART:<5}", start[limits:first])
-    fields = "".join(f"{name} = {points_of(name)}\n" for name in asked_fields(mechanism))
+    fields = "".join(
+        f"{name} = {points_of(item)}\n" for name, item in asked_fields(mechanism).items()
+    )
     return explained("\n".join(head) + fair + fields + start[more:], mechanism)
 
 
-def points_of(field: str) -> str:
+def points_of(item: Item) -> str:
     """The points that a new lab gives a field."""
-    return "0.5" if field.endswith("_sense") else "1"
+    return "0.5" if item.what == "sense" else "1"
 
 
 def explained(text: str, mechanism: Mechanism) -> str:
     """The text of a lab.toml with all fields of a mechanism and its causes, and their meanings."""
-    fields = fields_of(mechanism)
+    fields = all_fields(mechanism)
     stated = {line.partition(" =")[0] for line in text.splitlines()}
     lines = []
     for line in text.splitlines():
         name = line.partition(" =")[0]
         if line == "# FIELDS":
             more = (
-                (f"# {each} = {points_of(each)}", note)
-                for each, note in fields.items()
+                (f"# {each} = {points_of(item)}", meaning(item))
+                for each, item in fields.items()
                 if each not in stated
             )
             lines += [beside(*pair) for pair in more]
@@ -544,7 +541,7 @@ def explained(text: str, mechanism: Mechanism) -> str:
             own = causes_of(mechanism).items()
             lines += [beside(f'# {cause} = "{GRADES[cause]}"', said) for cause, said in own]
         else:
-            lines.append(beside(line, fields[name]) if name in fields else line)
+            lines.append(beside(line, meaning(fields[name])) if name in fields else line)
     return "\n".join(lines) + "\n"
 
 
