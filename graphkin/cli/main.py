@@ -1,7 +1,4 @@
-"""The command line: the commands list, check, explain and solve, and the group of all commands.
-
-The command about the languages of the pages: words.
-"""
+"""The command line: all commands by section; list, check, explain, solve and words."""
 
 from __future__ import annotations
 
@@ -36,26 +33,38 @@ if TYPE_CHECKING:
     from graphkin.mechanism import Mechanism
     from graphkin.scene.model import Scene
 
-LATER = {
-    "sheet": "graphkin.cli.draw_commands:sheet",
-    "cycle": "graphkin.cli.draw_commands:cycle",
-    "accuracy": "graphkin.cli.draw_commands:accuracy",
-    "export": "graphkin.cli.exchange_commands:export",
-    "print": "graphkin.cli.paper_commands:print_sheets",
-    "grade": "graphkin.cli.grade_command:grade",
-    "read": "graphkin.cli.paper_commands:read",
-    "desk": "graphkin.cli.paper_commands:desk",
-    "quiz": "graphkin.cli.class_commands:quiz",
-    "new": "graphkin.cli.class_commands:new",
-    "variants": "graphkin.cli.class_commands:variants",
-    "ranges": "graphkin.cli.class_commands:ranges",
-    "import": "graphkin.cli.exchange_commands:import_scene",
-    "studio": "graphkin.cli.page_commands:studio",
-    "manual": "graphkin.cli.page_commands:manual",
-    "help": "graphkin.cli.page_commands:help_on",
-    "words": "graphkin.cli.main:words",
+COMMANDS = {
+    "Start here": {
+        "manual": "page_commands:manual",
+        "help": "page_commands:help_on",
+        "list": "main:list_labs",
+    },
+    "One mechanism": {
+        "check": "main:check",
+        "explain": "main:explain",
+        "solve": "main:solve",
+        "sheet": "draw_commands:sheet",
+        "cycle": "draw_commands:cycle",
+        "accuracy": "draw_commands:accuracy",
+        "studio": "page_commands:studio",
+    },
+    "Class and marks": {
+        "new": "class_commands:new",
+        "ranges": "class_commands:ranges",
+        "variants": "class_commands:variants",
+        "print": "paper_commands:print_sheets",
+        "read": "paper_commands:read",
+        "grade": "grade_command:grade",
+        "desk": "paper_commands:desk",
+    },
+    "Other programs and languages": {
+        "import": "exchange_commands:import_scene",
+        "export": "exchange_commands:export",
+        "quiz": "class_commands:quiz",
+        "words": "main:words",
+    },
 }
-"""The commands of other modules, as ``module:function``."""
+"""The sections of the help, each with its commands as ``module:function`` of ``graphkin.cli``."""
 HELP = {"help_option_names": ["-h", "--help"], "max_content_width": 96}
 VERSION = f"graphkin, version {__version__}"
 
@@ -63,7 +72,7 @@ VERSION = f"graphkin, version {__version__}"
 class Commands(CommandGroup):
     """The group of all commands."""
 
-    later = LATER
+    sections = COMMANDS
 
 
 @click.group(
@@ -84,6 +93,7 @@ def app(context: click.Context) -> None:
 
     \b
     Examples:
+      graphkin manual                            first steps, for student and lecturer
       graphkin list                              the labs that come with graphkin
       graphkin solve pump --set n=7              all numbers of student 7's pump
       graphkin sheet pump --set n=7 -o sheets    the drawings and calculations
@@ -100,7 +110,7 @@ def app(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-@app.command("list")
+@click.command("list")
 @click.option("--scenes", is_flag=True, help="List the names and titles of all scenes instead.")
 def list_labs(scenes: bool) -> None:
     """List the labs and scenes that come with graphkin.
@@ -118,7 +128,7 @@ def list_labs(scenes: bool) -> None:
     tell(scenes_lines() if scenes else labs_lines())
 
 
-@app.command()
+@click.command()
 @scene_argument
 def check(name: str, settings: tuple[str, ...]) -> None:
     """Check a scene and show how its mechanism is put together.
@@ -159,7 +169,7 @@ def check(name: str, settings: tuple[str, ...]) -> None:
         leave(FAILED)
 
 
-@app.command()
+@click.command()
 @scene_argument
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, times in seconds.")
 def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
@@ -186,7 +196,7 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
         tell(explain_lines(found))
 
 
-@app.command()
+@click.command()
 @scene_argument
 @click.option(
     "--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks for."

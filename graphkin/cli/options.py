@@ -90,14 +90,18 @@ def eager_option(*names: str, help: str, what: Callable[[click.Context], str]) -
     )
 
 
+SHORT = 120
+"""The most characters of a command's first sentence in the list of commands."""
+
+
 class CommandGroup(Command, click.Group):
     """A group of commands that shows no traceback and suggests the nearest command.
 
-    ``later`` gives the modules of commands that are imported only when they are called.
+    ``sections`` lists them; a command of another module is imported only when it is called.
     """
 
     command_class = Command
-    later: ClassVar[Mapping[str, str]] = {}
+    sections: ClassVar[Mapping[str, Mapping[str, str]]] = {}
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
         """Run a command and exit with its status."""
@@ -134,15 +138,34 @@ class CommandGroup(Command, click.Group):
         return super().resolve_command(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """The commands in the order of their definition, those of other modules last."""
-        return [*(name for name in self.commands if name not in self.later), *self.later]
+        """The commands in the order of the help."""
+        listed = [name for section in self.sections.values() for name in section]
+        return listed or list(self.commands)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command of a name, imported if it belongs to another module."""
-        if cmd_name in self.later and cmd_name not in self.commands:
-            module, _, name = self.later[cmd_name].partition(":")
-            self.add_command(getattr(import_module(module), name), cmd_name)
+        if cmd_name not in self.commands:
+            for section in self.sections.values():
+                if cmd_name in section:
+                    module, _, name = section[cmd_name].partition(":")
+                    self.add_command(
+                        getattr(import_module(f"graphkin.cli.{module}"), name), cmd_name
+                    )
         return super().get_command(ctx, cmd_name)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write the commands section by section."""
+        widest = max(map(len, self.list_commands(ctx)))
+        for title, section in (self.sections or {"Commands": self.commands}).items():
+            with formatter.section(title):
+                commands = ((name, self.get_command(ctx, name)) for name in section)
+                formatter.write_dl(
+                    [
+                        (f"{name:{widest}}", cmd.get_short_help_str(SHORT))
+                        for name, cmd in commands
+                        if cmd
+                    ]
+                )
 
 
 def of_scene(scene: str, problem: Problem) -> Problem:

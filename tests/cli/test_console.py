@@ -19,7 +19,7 @@ from tests.running import ROOT, Run, command
     [
         (["sovle", "pump"], "did you mean solve?"),
         (["Check", "pump"], "did you mean check?"),
-        (["zzz"], "commands are list, check"),
+        (["zzz"], "commands are manual, help"),
         (["solve", "pmup"], "did you mean pump?"),
         (["solve", "pump", "--jsno"], "--json"),
         (["solve", "pump", "--set", "m=7"], "expected n"),
