@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from graphkin.construction.centres.instant_centre import with_centres_together
 from graphkin.construction.centres.path_curvature import CURVATURE, PathCentre
-from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Sentence
