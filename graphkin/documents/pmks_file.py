@@ -21,7 +21,7 @@ from string import ascii_lowercase, ascii_uppercase, digits
 from graphkin.construction.core.drawn_scene import METRES
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Scene, Slide
-from graphkin.structure.link_axes import body, guide_line, metres
+from graphkin.structure.turning import body, guide_line, metres
 from graphkin.text.errors import NO_WORDS, Hint, Message, PageError, Problem, message
 
 LEAST = 1e-9

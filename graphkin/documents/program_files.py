@@ -19,7 +19,7 @@ from graphkin.construction.core.drawn_scene import METRES
 from graphkin.documents.pmks_file import along, not_cranks, pmks_file, without_counterpart
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Slide
-from graphkin.structure.link_axes import guide_line
+from graphkin.structure.turning import guide_line
 from graphkin.text.errors import NO_WORDS, PageError, Problem, message
 
 PER_INCH = 96

@@ -25,9 +25,8 @@ from graphkin.structure.groups import (
     Tie,
     Unresolved,
 )
-from graphkin.structure.link_axes import guide_line, metres
 from graphkin.structure.pairs import Pin, all_pairs, sharers
-from graphkin.structure.turning import LEVEL
+from graphkin.structure.turning import LEVEL, guide_line, metres
 from graphkin.text.errors import (
     NO_WORDS,
     Change,
