@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 from msgspec import Struct
 from msgspec.structs import force_setattr
 
-from graphkin.construction.compile import write
+from graphkin.construction.compile import Laid, laid, write
 from graphkin.construction.core.branches import may_be_numbered
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import ASKED
@@ -23,7 +23,6 @@ from graphkin.construction.core.solution import (
     rows_of,
     without_touching,
 )
-from graphkin.construction.flat_rods import Laid, laid
 from graphkin.numbers.arithmetic import FLOAT, Kind, np
 from graphkin.scene import scene_files
 from graphkin.scene.known_names import in_language
