@@ -380,7 +380,7 @@ def motion_words(scene: Scene, solution: Solution, found: Record, verdict: Verdi
         from graphkin.cli.report.certified_report import certified_text
 
         return certified_text(scene, found, verdict)
-    from graphkin.cli.report.motion_report import motion_text
+    from graphkin.cli.report.solution_record import motion_text
 
     return motion_text(scene, solution, found, verdict)
 
@@ -402,7 +402,7 @@ def doubts(
 
     True if there is any doubt. With ``proved``, the digits are sure whatever doubles lose.
     """
-    from graphkin.cli.report.motion_report import (
+    from graphkin.cli.report.solution_record import (
         digits_words,
         flat_words,
         unsure_words,

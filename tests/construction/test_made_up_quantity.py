@@ -91,7 +91,7 @@ from graphkin.classroom.lab.items import asked_fields
 from graphkin.classroom.lab.new_lab import meaning
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.cycle_report import cycle_table
-from graphkin.cli.report.motion_report import motion_text
+from graphkin.cli.report.solution_record import motion_text
 from graphkin.cli.report.solution_record import record
 from graphkin.classroom.grading.probes import probes
 from graphkin.documents.sheet import asked_words, sheet
