@@ -21,8 +21,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.original import DrawnQuantity, Original, answers
-from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
+from graphkin.accuracy.pencil.pencil import DrawnQuantity, Original, Pencil, PencilMark, answers
 from graphkin.accuracy.pencil.redrawing import Drawn, redrawn, simulated
 from graphkin.construction.core.program import Target
 from graphkin.numbers.arithmetic import np

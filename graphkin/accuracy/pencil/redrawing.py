@@ -8,8 +8,15 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.original import DrawnQuantity, Original, answers, original
-from graphkin.accuracy.pencil.pencil import Pencil, PencilMark, marked
+from graphkin.accuracy.pencil.pencil import (
+    DrawnQuantity,
+    Original,
+    Pencil,
+    PencilMark,
+    answers,
+    marked,
+    original,
+)
 from graphkin.construction.cams.cam_centre import CurvatureCentre
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import Target
