@@ -1,8 +1,7 @@
 """The effect of a pencil on a construction: simulated drawings, and their expected errors."""
 
-from graphkin.accuracy.pencil.forecast import Forecast, forecast
+from graphkin.accuracy.pencil.forecast import Drawn, Forecast, forecast, pencil_drawings, simulated
 from graphkin.accuracy.pencil.pencil import Original, Pencil, original
-from graphkin.accuracy.pencil.redrawing import Drawn, pencil_drawings, simulated
 
 __all__ = [
     "Drawn",

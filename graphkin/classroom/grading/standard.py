@@ -10,7 +10,16 @@ from typing import Any, NamedTuple
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIGHT, sources
+from graphkin.accuracy.pencil.forecast import (
+    BENT,
+    COMMON,
+    JOINT,
+    NORMAL_95,
+    SEED,
+    WEIGHT,
+    redrawn,
+    sources,
+)
 from graphkin.accuracy.pencil.pencil import (
     STRAIGHT,
     Original,
@@ -21,7 +30,6 @@ from graphkin.accuracy.pencil.pencil import (
     original,
     together,
 )
-from graphkin.accuracy.pencil.redrawing import COMMON, redrawn
 from graphkin.classroom.grading.probes import Probe, probes, targets_of
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Rubric
