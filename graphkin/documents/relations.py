@@ -16,7 +16,7 @@ from operator import truediv
 from msgspec.structs import replace
 
 from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
-from graphkin.construction.cams.cam_relations import of_cams
+from graphkin.construction.cams.cam_centre import of_cams
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
