@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from graphkin.construction.reactions import ForceSolution
-    from graphkin.construction.tape.batch_runner import BatchRunner
+    from graphkin.construction.tape.emitted import BatchRunner
     from graphkin.loops.equilibrium import ForceVerdict
     from graphkin.loops.witness import Check
 
@@ -157,7 +157,7 @@ class Mechanism(Struct, frozen=True, dict=True):
     @cached_property
     def press(self) -> BatchRunner:
         """The runner of the program for many variants at once."""
-        from graphkin.construction.tape.batch_runner import BatchRunner
+        from graphkin.construction.tape.emitted import BatchRunner
 
         return BatchRunner(self.program)
 
