@@ -25,9 +25,9 @@ from graphkin.construction.core.solution import (
 )
 from graphkin.numbers.arithmetic import FLOAT, Kind, np
 from graphkin.scene import scene_files
-from graphkin.scene.known_names import in_language
 from graphkin.scene.link_points import point_of
 from graphkin.scene.model import Scene
+from graphkin.scene.phrases import in_language
 from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers

@@ -7,8 +7,8 @@ from collections.abc import Collection, Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import next_name, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
+from graphkin.scene.phrases import next_name, quoted
 from graphkin.structure.turning import LEVEL, body, metres, stands_along, through, unit
 from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, WrittenInto, message
 

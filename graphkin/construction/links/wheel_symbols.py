@@ -20,8 +20,8 @@ from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import across, hatched
 from graphkin.numbers.arithmetic import Real, at, larger, phase, pick, smaller, sqrt
 from graphkin.numbers.plane import cross, dot
-from graphkin.scene.known_names import place_of
 from graphkin.scene.model import FRAME, Link, Profile, of_one_size
+from graphkin.scene.phrases import place_of
 from graphkin.text.errors import PageError, Problem, message
 
 RIM = 2.4
