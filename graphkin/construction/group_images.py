@@ -14,7 +14,6 @@ from msgspec import Struct
 
 from graphkin.construction.acceleration.acceleration import GuideAcceleration
 from graphkin.construction.acceleration.tangential_direction import BarAcceleration
-from graphkin.construction.acceleration.turned_acceleration import accelerated
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.pen import Pen, arrow_between, letter, velocity_arrows
 from graphkin.construction.core.program import Effect, Part, Plane
@@ -33,6 +32,7 @@ from graphkin.construction.velocity.image_of_link import (
     translated_image,
 )
 from graphkin.construction.velocity.relative_motion import parallel_through, perpendicular_through
+from graphkin.construction.velocity.turned_vectors import accelerated
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie, other_of
 from graphkin.structure.joints import partner
@@ -96,11 +96,11 @@ class GuideVelocity(BoundVelocity, frozen=True):
         """Draw the arrow from the pole, the arrow along the guide, and the contact point."""
         velocity_arrows(pen, self.name, ends_of(self.name)[0] if is_under(self.name) else None)
         if driven or (isinstance(self.pair, Sliding) and not is_under(self.name)):
-            slide_arrow(pen, self.pair, self.link, self.name)
+            slide_velocity_arrow(pen, self.pair, self.link, self.name)
         led_by(self.pair).touch(pen, VELOCITY)
 
 
-def slide_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
+def slide_velocity_arrow(pen: Pen, pair: Joint, link: str, point: str) -> None:
     """Draw the arrow of a relative velocity along a moving guide.
 
     A translating guide causes no acceleration component. Then an arrow in the other direction, of
@@ -198,7 +198,7 @@ class GroupImages(Struct, frozen=True):
             found = pen.draw(part_along, guide, start, end)
         pen.want(SLIDING[plan.quantity].target, block, found)
         if plan is VELOCITY:
-            slide_arrow(pen, pair, block, point)
+            slide_velocity_arrow(pen, pair, block, point)
 
     # --- dyads and ties --------------------------------------------------------------------------
 
