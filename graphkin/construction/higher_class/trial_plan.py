@@ -12,7 +12,6 @@ from itertools import groupby
 
 from msgspec import Struct, field
 
-from graphkin.construction.acceleration.acceleration import slid
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
@@ -33,6 +32,7 @@ from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.group_images import slid
 from graphkin.construction.higher_class.divided_point import (
     CrossedLine,
     DividedPoint,
