@@ -11,7 +11,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
+from graphkin.construction.tangential_direction import refuse_unused_method
 from graphkin.construction.centres.instant_centre import draw_centre, draw_pole
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import (

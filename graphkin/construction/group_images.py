@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.tangential_direction import BarAcceleration
+from graphkin.construction.tangential_direction import BarAcceleration
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import (

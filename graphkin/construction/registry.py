@@ -33,7 +33,7 @@ from graphkin.construction.forces.moments import ForceArm, TangentialPart
 from graphkin.construction.forces.polygon import ClosedByLines
 from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.plate_points import with_starts_together
-from graphkin.construction.normal_component.normal_component import (
+from graphkin.construction.normal_component import (
     KleinComponent,
     NormalComponent,
     with_normals_together,

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.forecast import closed, step_drawn, unmarked
-from graphkin.accuracy.pencil.pencil import Original, Pencil, PencilMark
+from graphkin.accuracy.pencil import Original, Pencil, PencilMark, closed, step_drawn, unmarked
 from graphkin.classroom.grading.answer_numbers import OPEN, read_answer
 from graphkin.classroom.grading.feedback import (
     LEFT,

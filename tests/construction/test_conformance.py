@@ -18,8 +18,7 @@ from pathlib import Path
 import pytest
 
 import graphkin.construction
-from graphkin.accuracy.pencil.forecast import forecast
-from graphkin.accuracy.pencil.pencil import Pencil, original
+from graphkin.accuracy.pencil import Pencil, forecast, original
 from graphkin.cli.report.pencil_report import pencil_lines, step_words
 from graphkin.cli.report.solution_record import place_words
 from graphkin.construction.core.drawn_scene import Drawing

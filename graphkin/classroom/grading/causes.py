@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 from msgspec import Struct
 from msgspec.structs import astuple, replace
 
-from graphkin.accuracy.pencil.pencil import (
+from graphkin.accuracy.pencil import (
     SCALES,
     Paper,
     Pencil,

@@ -10,24 +10,22 @@ from typing import Any, NamedTuple
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.forecast import (
+from graphkin.accuracy.pencil import (
     BENT,
     COMMON,
     JOINT,
     NORMAL_95,
     SEED,
-    WEIGHT,
-    redrawn,
-    sources,
-)
-from graphkin.accuracy.pencil.pencil import (
     STRAIGHT,
+    WEIGHT,
     Original,
     Paper,
     Pencil,
     PencilMark,
     bar_of,
     original,
+    redrawn,
+    sources,
     together,
 )
 from graphkin.classroom.grading.probes import Probe, probes, targets_of

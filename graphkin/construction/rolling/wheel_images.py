@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.tangential_direction import known_and_free
+from graphkin.construction.tangential_direction import known_and_free
 from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate
