@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 from msgspec import Struct
 from msgspec.structs import force_setattr
 
+from graphkin import service
 from graphkin.construction.compile import Laid, laid, write
 from graphkin.construction.core.branches import may_be_numbered
 from graphkin.construction.core.program import Program, Target
@@ -33,7 +34,6 @@ from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import CoupledTrain, Group, Higher
 from graphkin.text.errors import GraphkinError, Problem, SceneError, Setting, joined, message
-from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -456,7 +456,8 @@ class Mechanism(Struct, frozen=True, dict=True):
         flat = np.flatnonzero(np.broadcast_to(losing, count) < LOSSY)
         if not flat.size:
             return solution
-        from graphkin.loops.witness import examine, sure_of
+        from graphkin.loops.differences import sure_of
+        from graphkin.loops.witness import examine
 
         unsure: dict[str, Any] = {}
         for start in range(0, flat.size, EXAMINED):
@@ -469,7 +470,7 @@ class Mechanism(Struct, frozen=True, dict=True):
     @cached_property
     def evenness(self) -> float:
         """The shortest length of the mechanism divided by its longest."""
-        from graphkin.loops.witness.differences import evenness
+        from graphkin.loops.differences import evenness
 
         return evenness(self.scene)
 

@@ -22,7 +22,7 @@ from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import newton, ratios_at
 from graphkin.loops.rigid_bodies import Reals
-from graphkin.loops.witness.examine import started
+from graphkin.loops.witness import started
 from graphkin.motion.sweep import names
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind, ball_kind, decimal_kind

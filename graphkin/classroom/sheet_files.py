@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from graphkin.documents import MOTION_VIEWS
 from graphkin.documents.sheet_documents import CALCULATED, calculation_text, language_of
-from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files

@@ -24,7 +24,7 @@ from graphkin.cli.options import (
     tell,
     working,
 )
-from graphkin.documents.view_names import VIEWS
+from graphkin.documents import VIEWS
 
 if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales

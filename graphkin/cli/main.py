@@ -246,7 +246,7 @@ def solve(
     """
     from graphkin.cli.report.solution_record import record
     from graphkin.construction.core.solution import gathered
-    from graphkin.loops.witness import sure_of
+    from graphkin.loops.differences import sure_of
     from graphkin.mechanism import Mechanism
 
     mechanism = mechanism_of(name, settings)

@@ -11,7 +11,6 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.tangential_direction import refuse_unused_method
 from graphkin.construction.centres.instant_centre import draw_centre, draw_pole
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
 from graphkin.construction.core.branches import (
@@ -31,6 +30,7 @@ from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupI
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.plan import Plan, omega_of
+from graphkin.construction.tangential_direction import refuse_unused_method
 from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.numbers.arithmetic import FLOAT, Point, Real
 from graphkin.numbers.plane import Vector

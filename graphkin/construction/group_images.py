@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
-from graphkin.construction.tangential_direction import BarAcceleration
 from graphkin.construction.core.bases import Base, crank_tip, sides_of
 from graphkin.construction.core.component import LaidOff
 from graphkin.construction.core.pen import (
@@ -32,6 +31,7 @@ from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import ratio_of
 from graphkin.construction.links.plate_points import crosses_well
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.tangential_direction import BarAcceleration
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     image_of_link,

@@ -9,6 +9,7 @@ from typing import get_args
 
 from msgspec.structs import replace
 
+from graphkin import service
 from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
@@ -38,7 +39,6 @@ from graphkin.scene.requests import (
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels, sized_by_teeth
 from graphkin.text import paths
 from graphkin.text.errors import NO_WORDS, FirstLine, GraphkinError, Mend, SceneError, both, message
-from graphkin.text.hooks import service
 
 FORMAT = 1
 """Version of the scene format that is read."""

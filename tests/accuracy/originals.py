@@ -7,8 +7,7 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil import Original, original
-from graphkin.accuracy.pencil import Paper
+from graphkin.accuracy.pencil import Original, Paper, original
 from graphkin.construction.core import vocabulary
 from graphkin.construction.core.program import Given, Part, Plane, Program, Step
 from graphkin.construction.core.run import run
