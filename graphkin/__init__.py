@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from graphkin.mechanism import Mechanism, load
 
 __all__ = ["Mechanism", "load"]
@@ -18,7 +21,19 @@ SERVICES = {
     "plot": "graphkin.documents.notebook:plot",
     "picture": "graphkin.documents.notebook:picture",
 }
-"""What a lower room needs of a higher one, as module:function; text/hooks.py loads it."""
+"""What a lower room needs of a higher one, as module:function."""
+
+
+def service(name: str) -> Callable[..., Any]:
+    """The function of a service, loaded on first use.
+
+    Raises LookupError for a service that is not listed.
+    """
+    if name not in SERVICES:
+        raise LookupError(f"nobody renders {name!r}")
+    module, _, function = SERVICES[name].partition(":")
+    found: Callable[..., Any] = getattr(import_module(module), function)
+    return found
 
 
 def __getattr__(name: str) -> Any:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar
 from msgspec import Struct
 from msgspec.structs import force_setattr
 
-from graphkin.construction.compile import write
+from graphkin import service
+from graphkin.construction.compile import Laid, laid, write
 from graphkin.construction.core.branches import may_be_numbered
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import ASKED
@@ -23,18 +24,16 @@ from graphkin.construction.core.solution import (
     rows_of,
     without_touching,
 )
-from graphkin.construction.flat_rods import Laid, laid
 from graphkin.numbers.arithmetic import FLOAT, Kind, np
 from graphkin.scene import scene_files
-from graphkin.scene.known_names import in_language
 from graphkin.scene.link_points import point_of
 from graphkin.scene.model import Scene
+from graphkin.scene.phrases import in_language
 from graphkin.scene.read_scene import read_scene
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import refuse_drivers
 from graphkin.structure.groups import CoupledTrain, Group, Higher
 from graphkin.text.errors import GraphkinError, Problem, SceneError, Setting, joined, message
-from graphkin.text.hooks import service
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -43,7 +42,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from graphkin.construction.reactions import ForceSolution
-    from graphkin.construction.tape.batch_runner import BatchRunner
+    from graphkin.construction.tape.emitted import BatchRunner
     from graphkin.loops.equilibrium import ForceVerdict
     from graphkin.loops.witness import Check
 
@@ -158,7 +157,7 @@ class Mechanism(Struct, frozen=True, dict=True):
     @cached_property
     def press(self) -> BatchRunner:
         """The runner of the program for many variants at once."""
-        from graphkin.construction.tape.batch_runner import BatchRunner
+        from graphkin.construction.tape.emitted import BatchRunner
 
         return BatchRunner(self.program)
 
@@ -457,7 +456,8 @@ class Mechanism(Struct, frozen=True, dict=True):
         flat = np.flatnonzero(np.broadcast_to(losing, count) < LOSSY)
         if not flat.size:
             return solution
-        from graphkin.loops.witness import examine, sure_of
+        from graphkin.loops.differences import sure_of
+        from graphkin.loops.witness import examine
 
         unsure: dict[str, Any] = {}
         for start in range(0, flat.size, EXAMINED):
@@ -470,7 +470,7 @@ class Mechanism(Struct, frozen=True, dict=True):
     @cached_property
     def evenness(self) -> float:
         """The shortest length of the mechanism divided by its longest."""
-        from graphkin.loops.witness.differences import evenness
+        from graphkin.loops.differences import evenness
 
         return evenness(self.scene)
 

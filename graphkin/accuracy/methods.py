@@ -16,13 +16,13 @@ from graphkin.construction.core.quantities import BY_TARGET, KINDS, MOTION
 from graphkin.construction.core.run import StepFailed, run, run_blocks
 from graphkin.construction.core.solution import gathered
 from graphkin.construction.core.timing import Clock, Stopwatch, Timing, Work
-from graphkin.construction.tape.batch_runner import BatchRunner, Way
+from graphkin.construction.tape.emitted import BatchRunner, Way
 from graphkin.loops.closing_groups import counted_in_order
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.newton import newton, ratios_at
 from graphkin.loops.rigid_bodies import Reals
-from graphkin.loops.witness.examine import started
+from graphkin.loops.witness import started
 from graphkin.motion.sweep import names
 from graphkin.numbers.arithmetic import FLOAT, Kind
 from graphkin.numbers.kinds import array_kind, ball_kind, decimal_kind
@@ -227,7 +227,7 @@ def batch_work(
 
 def can_be_emitted(reference: Reference) -> bool:
     """Whether the program can be emitted as source code."""
-    from graphkin.construction.tape.batch_runner import BatchRequest
+    from graphkin.construction.tape.emitted import BatchRequest
 
     program, answers = reference.places.course.program, reference.answers
     keep = [program.targets[target] for target in answers.every]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from graphkin.documents import MOTION_VIEWS
 from graphkin.documents.sheet_documents import CALCULATED, calculation_text, language_of
-from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
@@ -35,7 +35,7 @@ def sheet_files(
         page = hand_out_page(mechanism, name, stem, view, language, ink, notes.append)
         files[f"{stem}-{view}.html"] = page.encode("utf-8")
     if "pmks" in kinds:
-        from graphkin.documents.pmks_file import pmks_file
+        from graphkin.documents.program_files import pmks_file
 
         files[f"{stem}.pmks"] = pmks_file(mechanism, message("leave pmks out"))
     if "tex" in kinds and view in CALCULATED:

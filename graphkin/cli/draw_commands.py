@@ -24,7 +24,7 @@ from graphkin.cli.options import (
     tell,
     working,
 )
-from graphkin.documents.view_names import VIEWS
+from graphkin.documents import VIEWS
 
 if TYPE_CHECKING:
     from graphkin.drawing.scale import Scales
@@ -295,7 +295,7 @@ def accuracy(
     from graphkin.accuracy.study import study
     from graphkin.accuracy.study_pictures import picture_files
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
-    from graphkin.cli.report.waits import waits_lines, waits_of
+    from graphkin.cli.report.explain_report import waits_lines, waits_of
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 
     mechanism = mechanism_of(name, settings)

@@ -256,7 +256,7 @@ def solve(
     """
     from graphkin.cli.report.solution_record import record
     from graphkin.construction.core.solution import gathered
-    from graphkin.loops.witness import sure_of
+    from graphkin.loops.differences import sure_of
     from graphkin.mechanism import Mechanism
 
     mechanism = mechanism_of(name, settings)
@@ -390,7 +390,7 @@ def motion_words(scene: Scene, solution: Solution, found: Record, verdict: Verdi
         from graphkin.cli.report.certified_report import certified_text
 
         return certified_text(scene, found, verdict)
-    from graphkin.cli.report.motion_report import motion_text
+    from graphkin.cli.report.solution_record import motion_text
 
     return motion_text(scene, solution, found, verdict)
 
@@ -412,7 +412,7 @@ def doubts(
 
     True if there is any doubt. With ``proved``, the digits are sure whatever doubles lose.
     """
-    from graphkin.cli.report.motion_report import (
+    from graphkin.cli.report.solution_record import (
         digits_words,
         flat_words,
         unsure_words,

@@ -24,7 +24,7 @@ from graphkin.cli.options import (
     tell,
 )
 from graphkin.cli.page_commands import browser_option, port_option, refuse_without, show
-from graphkin.documents.view_names import PRINTED_VIEWS
+from graphkin.documents import PRINTED_VIEWS
 from graphkin.text.errors import PageError, message, verbatim
 
 if TYPE_CHECKING:

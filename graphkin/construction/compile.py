@@ -9,24 +9,34 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
-from graphkin.construction.acceleration.tangential_direction import refuse_unused_method
+from msgspec.structs import replace
+
 from graphkin.construction.centres.instant_centre import draw_centre, draw_pole
 from graphkin.construction.core.bases import Base, bases, crank_tip, leads_of
-from graphkin.construction.core.branches import in_place_of, refuse_unstated, stray, unused_branches
+from graphkin.construction.core.branches import (
+    choosing,
+    in_place_of,
+    refuse_unstated,
+    stray,
+    unused_branches,
+)
 from graphkin.construction.core.palette import TRANSFER, Move, vector_at_point
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import Part, Plane, PlanVector, Program
 from graphkin.construction.core.quantities import CENTRES, MOTION, names_asked
+from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.plan import Plan, omega_of
+from graphkin.construction.tangential_direction import refuse_unused_method
 from graphkin.construction.velocity.image_of_link import image_under
-from graphkin.numbers.arithmetic import Point, Real
+from graphkin.numbers.arithmetic import FLOAT, Point, Real
 from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of, point_of
-from graphkin.scene.model import Scene
+from graphkin.scene.model import Scene, Side
+from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
     CamFollower,
     CoupledTrain,
@@ -43,6 +53,7 @@ from graphkin.structure.groups import (
     Train,
     Unresolved,
 )
+from graphkin.structure.joints import parallel_sets
 from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, Any], None]
@@ -300,3 +311,43 @@ def constructed(pen: Pen, name: str, plan: Plan) -> str:
         if not pen.has(plan.quantity, name):
             pen.want(plan.quantity, name, number)
     return point if owned else name
+
+
+FLAT = 1e-6
+"""Sine of a crossing below which a rod counts as flat."""
+
+Laid = tuple[tuple[Group, ...], Program]
+
+
+def laid(scene: Scene, groups: tuple[Group, ...]) -> Laid:
+    """The groups as drawn, and their program: parallel bars place what a flat rod does not."""
+    first = groups, write(scene, groups)
+    if not any(isinstance(group, Tie) for group in groups) or not is_flat(scene, first[1]):
+        return first
+    other = without_idle_sides(scene)
+    return first if other is scene else ((found := decompose(other)), write(other, found))
+
+
+def is_flat(scene: Scene, program: Program) -> bool:
+    """Whether two loci only touch in the scene's position."""
+    places = program.needed(target for target in program.targets if target[0] == "position")
+    try:
+        margins = run(program, places, scene.values, FLOAT).margins
+    except StepFailed:
+        return False
+    return bool(min(margins.values(), default=1.0) < FLAT)
+
+
+def without_idle_sides(scene: Scene) -> Scene:
+    """The scene without the sides of pins of parallel bars, where these leave no choice.
+
+    The same where it states none.
+    """
+    pins = {p for each in parallel_sets(scene) for ends in each.pins for p in ends}
+    idle = {pin for pin in pins if isinstance(scene.branches.get(pin), Side)}
+    if not idle:
+        return scene
+    branches = {name: each for name, each in scene.branches.items() if name not in idle}
+    left = idle & {*choosing(decompose(replace(scene, branches=branches)))}
+    branches = {name: each for name, each in scene.branches.items() if name not in idle - left}
+    return replace(scene, branches=branches)

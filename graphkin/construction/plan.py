@@ -7,7 +7,6 @@ from contextlib import AbstractContextManager
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration import turned_acceleration
 from graphkin.construction.core.pen import (
     PRIME,
     Pen,
@@ -20,7 +19,10 @@ from graphkin.construction.core.pen import (
 )
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.quantities import EPSILON, MOTION, PLANES, RATE, SLIDING
-from graphkin.construction.velocity import turned_velocity
+from graphkin.construction.velocity.turned_vectors import (
+    turned_acceleration_image,
+    turned_velocity_image,
+)
 from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import FRAME
@@ -107,7 +109,7 @@ class VelocityPlan(Plan, frozen=True):
         self, pen: Pen, link: str, pivot: str, pin: str, start: int, *, steady: bool = False
     ) -> int:
         """The image of a pin by the angular velocity."""
-        return turned_velocity.turned_image(pen, link, (pivot, pin), start, name=self.named(pin))
+        return turned_velocity_image(pen, link, (pivot, pin), start, name=self.named(pin))
 
     def is_steady(self, pen: Pen, link: str) -> bool:
         """False, since velocities do not depend on it; writes the rate of the link."""
@@ -135,7 +137,7 @@ class AccelerationPlan(Plan, frozen=True):
     ) -> int:
         """The image of a pin by both rates."""
         name, points = self.named(pin), (pivot, pin)
-        return turned_acceleration.turned_image(pen, link, points, start, name=name, steady=steady)
+        return turned_acceleration_image(pen, link, points, start, name=name, steady=steady)
 
     def is_steady(self, pen: Pen, link: str) -> bool:
         """Whether a driver turns the link at a constant rate."""

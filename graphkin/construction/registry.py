@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 
+from graphkin.construction.centres.instant_centre import with_centres_together
 from graphkin.construction.centres.path_curvature import CURVATURE, PathCentre
-from graphkin.construction.centres.relative_centre import with_centres_together
 from graphkin.construction.core.component import Component
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Sentence
@@ -33,7 +33,7 @@ from graphkin.construction.forces.moments import ForceArm, TangentialPart
 from graphkin.construction.forces.polygon import ClosedByLines
 from graphkin.construction.higher_class.two_trials import with_trials_together
 from graphkin.construction.links.plate_points import with_starts_together
-from graphkin.construction.normal_component.normal_component import (
+from graphkin.construction.normal_component import (
     KleinComponent,
     NormalComponent,
     with_normals_together,

@@ -15,7 +15,7 @@ from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt
 import numpy as np
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
+from graphkin.accuracy.pencil import STRAIGHT, Pencil
 from graphkin.construction.core.paper_canvas import clipped_path
 from graphkin.construction.core.quantities import BY_TARGET, JERK, SHEETS
 from graphkin.construction.core.relation import figure

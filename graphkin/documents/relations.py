@@ -15,8 +15,7 @@ from operator import truediv
 
 from msgspec.structs import replace
 
-from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
-from graphkin.construction.cams.cam_relations import of_cams
+from graphkin.construction.cams.cam_centre import of_cams
 from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
@@ -45,7 +44,7 @@ from graphkin.construction.rate_relations import by_radius, of_slides, of_sum, o
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.velocity.relative_motion import as_relation
-from graphkin.construction.velocity.turned_velocity import TurnedVelocity
+from graphkin.construction.velocity.turned_vectors import TurnedAcceleration, TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Ratio, Vector
 from graphkin.scene.findings import natural

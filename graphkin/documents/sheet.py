@@ -33,7 +33,7 @@ from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.links.mechanism_symbols import settle_in_plates
 from graphkin.construction.result_tables import COMPUTED, tables
-from graphkin.construction.velocity.turned_velocity import TurnedVelocity
+from graphkin.construction.velocity.turned_vectors import TurnedVelocity
 from graphkin.documents.detail import insets, parted
 from graphkin.documents.listing import around_tables, first_part, listed
 from graphkin.documents.scheme import scheme

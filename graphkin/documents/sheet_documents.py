@@ -29,6 +29,7 @@ from graphkin.construction.core.quantities import SHEETS
 from graphkin.construction.core.solution import FAIR, Solution, Verdict
 from graphkin.construction.result_tables import tables, tables_on_sheets, unread
 from graphkin.diagnosis.assembly_failure import beside_dead_point
+from graphkin.documents import MOTION_VIEWS
 from graphkin.documents.detail import with_detail
 from graphkin.documents.listing import in_columns, on_sheets
 from graphkin.documents.scaling import drawing, scales, sheet_motion, targets_of
@@ -50,7 +51,6 @@ from graphkin.documents.sheet import (
     title_of,
     weight_of,
 )
-from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.field import ABOVE, MARGIN, Field, Rect, SheetPaper
 from graphkin.drawing.frame import fitting
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, reach

@@ -23,7 +23,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import METRES
-from graphkin.documents.pmks_file import (
+from graphkin.documents.program_files import (
     ALPHABET,
     EXACT,
     GROUND,

@@ -23,9 +23,9 @@ from graphkin.loops.rigid_bodies import Reals
 from graphkin.numbers.plane import Line
 from graphkin.scene.forces import ByDriver, Directed, Forces, Size
 from graphkin.scene.model import FRAME, Driver, Scene, joined_words
-from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Contact, contacts
 from graphkin.structure.touching_wheels import radius, track_line
+from graphkin.structure.turning import body
 from graphkin.text.errors import StructureError, joined, message
 
 RANK = 1e-10

@@ -124,7 +124,7 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
     @cached_property
     def sure(self) -> Solution:
         """The motion of every row, with NaN for each quantity that has no certain digit there."""
-        from graphkin.loops.witness import sure_of
+        from graphkin.loops.differences import sure_of
 
         return sure_of(self.solution, witnessed(self, numbered=False).unsure)
 

@@ -21,7 +21,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.flat_rods import without_idle_sides
+from graphkin.construction.compile import without_idle_sides
 from graphkin.motion.driving import (
     COORDINATES,
     GRID,

@@ -29,8 +29,8 @@ from graphkin.motion.extremes import (
 from graphkin.motion.follower_limits import movers_of
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.groups import Dyad
-from graphkin.structure.link_axes import guide_line
 from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.turning import guide_line
 
 LEAST_TRANSMISSION = 40.0
 """The customary least transmission angle, in degrees."""

@@ -14,9 +14,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.original import Original
-from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
-from graphkin.accuracy.pencil.redrawing import closed, step_drawn, unmarked
+from graphkin.accuracy.pencil import Original, Pencil, PencilMark, closed, step_drawn, unmarked
 from graphkin.classroom.grading.answer_numbers import OPEN, read_answer
 from graphkin.classroom.grading.feedback import (
     LEFT,

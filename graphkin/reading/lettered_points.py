@@ -12,8 +12,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.original import Original
-from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.accuracy.pencil import Original, Paper
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout, lay_out

@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.redrawing import unmarked
+from graphkin.accuracy.pencil import Pencil, unmarked
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Line, Vector
 from graphkin.reading.drawn_ink import DrawnInk

@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.accuracy.pencil.redrawing import step_drawn
+from graphkin.accuracy.pencil import Pencil, step_drawn
 from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine

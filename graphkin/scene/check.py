@@ -10,15 +10,6 @@ from collections import Counter
 from collections.abc import Iterator
 
 from graphkin.scene.findings import Findings, listed, nearest, numbered
-from graphkin.scene.known_names import (
-    THE_MECHANISM,
-    check_guide,
-    check_names,
-    known_link,
-    known_point,
-    place_of,
-    quoted,
-)
 from graphkin.scene.model import (
     FRAME,
     LEADING,
@@ -30,6 +21,15 @@ from graphkin.scene.model import (
     Way,
     lengths_of,
     link_words,
+)
+from graphkin.scene.phrases import (
+    THE_MECHANISM,
+    check_guide,
+    check_names,
+    known_link,
+    known_point,
+    place_of,
+    quoted,
 )
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.read_joints import check_profiles

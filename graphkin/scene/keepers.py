@@ -13,7 +13,6 @@ from collections.abc import Collection, Mapping, Sequence
 from msgspec.structs import replace
 
 from graphkin.scene.findings import numbered, shown
-from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
@@ -28,6 +27,7 @@ from graphkin.scene.model import (
     between_centres,
     of_one_size,
 )
+from graphkin.scene.phrases import next_name
 from graphkin.scene.quantity import Quantity, combined, exact
 from graphkin.text.errors import message
 

@@ -18,10 +18,9 @@ from msgspec.structs import replace
 from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.scene.expression import Number, Pair, Tree
 from graphkin.scene.findings import Table, listed, numbered, shown
-from graphkin.scene.known_names import next_name
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, Cam, CamLever, CamPiece, Conjugate, Link, Slide, link_words
-from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name
+from graphkin.scene.phrases import SIDES, is_link_name, is_name, link_name, next_name
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text.errors import Written, either, message
 

@@ -8,10 +8,16 @@ from math import ceil, pi
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.forces import ByDriver, Components, Directed, Forces, Load, Mass, Size, Spring
-from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import FRAME, MASS_KEYS, Scene, link_words
-from graphkin.scene.phrases import FRAME_WORD, link_name, point_name
+from graphkin.scene.phrases import (
+    FRAME_WORD,
+    THE_MECHANISM,
+    known_link,
+    known_point,
+    link_name,
+    point_name,
+)
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.text.errors import Message, message
 

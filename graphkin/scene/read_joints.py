@@ -13,10 +13,18 @@ from collections.abc import Iterator, Mapping
 from math import degrees
 
 from graphkin.scene.findings import Findings, Table, listed, nearest, numbered, one_or_many, shown
-from graphkin.scene.known_names import THE_MECHANISM, known_point, place_of
 from graphkin.scene.measures import FloatText, Measures, Pair
 from graphkin.scene.model import FRAME, At, Link, Profile, Scene, Slide, link_words
-from graphkin.scene.phrases import is_link_name, is_name, line_words, link_name, point_name
+from graphkin.scene.phrases import (
+    THE_MECHANISM,
+    is_link_name,
+    is_name,
+    known_point,
+    line_words,
+    link_name,
+    place_of,
+    point_name,
+)
 from graphkin.scene.quantity import Quantity
 from graphkin.text.errors import message
 

@@ -9,16 +9,23 @@ from typing import get_args
 
 from msgspec.structs import replace
 
+from graphkin import service
 from graphkin.scene.check import check_scene
 from graphkin.scene.expression import TIME, UnreadableError
 from graphkin.scene.file_limits import decoded, read_bytes, tables_of
 from graphkin.scene.findings import Findings, Table, listed, nearest, shown
 from graphkin.scene.house import PLAIN, RESULTS, House, house_beside
-from graphkin.scene.known_names import read_names
 from graphkin.scene.measures import Measures, quantity
 from graphkin.scene.model import FRAME, MASS_KEYS, Ask, Driver, DriverKind, Link, Scene
 from graphkin.scene.parameters import read_parameters, set_values
-from graphkin.scene.phrases import FRAME_WORD, LONGEST_NAME, is_link_name, line_words, link_name
+from graphkin.scene.phrases import (
+    FRAME_WORD,
+    LONGEST_NAME,
+    is_link_name,
+    line_words,
+    link_name,
+    read_names,
+)
 from graphkin.scene.placing import read_shape
 from graphkin.scene.quantity import LENGTHS, TURNS, Quantity, exact
 from graphkin.scene.read_joints import read_profiles, read_slides
@@ -32,7 +39,6 @@ from graphkin.scene.requests import (
 from graphkin.scene.wheels import read_drums, read_tracks, read_wheels, sized_by_teeth
 from graphkin.text import paths
 from graphkin.text.errors import NO_WORDS, FirstLine, GraphkinError, Mend, SceneError, both, message
-from graphkin.text.hooks import service
 
 FORMAT = 1
 """Version of the scene format that is read."""

@@ -11,7 +11,6 @@ from typing import Literal
 from graphkin.scene.expression import TIME
 from graphkin.scene.findings import Findings, Table, nearest, numbered, plain_text, shown
 from graphkin.scene.house import FRAMES, PAPERS, House, read_signs
-from graphkin.scene.known_names import THE_MECHANISM, known_link, known_point
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
@@ -28,9 +27,12 @@ from graphkin.scene.model import (
 from graphkin.scene.phrases import (
     CLOSURE,
     SIDES,
+    THE_MECHANISM,
     WAYS,
     asked_point,
     branch_words,
+    known_link,
+    known_point,
     link_name,
     phrase_hint,
     point_name,

@@ -6,11 +6,11 @@ import re
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
+from graphkin import service
 from graphkin.scene.findings import near_file
 from graphkin.scene.house import HOUSE
 from graphkin.text import paths
 from graphkin.text.errors import NO_WORDS, SceneError, joined, message
-from graphkin.text.hooks import service
 from graphkin.text.paths import within
 
 if TYPE_CHECKING:

@@ -14,7 +14,6 @@ from msgspec.structs import replace
 from graphkin.scene.expression import Call, Number
 from graphkin.scene.expression import Pair as Product
 from graphkin.scene.findings import Findings, Table, numbered, shown
-from graphkin.scene.known_names import check_guide, known_link, known_point, quoted
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
@@ -29,7 +28,15 @@ from graphkin.scene.model import (
     lengths_of,
     link_words,
 )
-from graphkin.scene.phrases import SIDES, link_name, point_name
+from graphkin.scene.phrases import (
+    SIDES,
+    check_guide,
+    known_link,
+    known_point,
+    link_name,
+    point_name,
+    quoted,
+)
 from graphkin.scene.quantity import Quantity, combined, exact, shortest
 from graphkin.scene.read_joints import MOST, read_line, tables
 from graphkin.text.errors import NO_WORDS, Hint, Mend, SceneError, message

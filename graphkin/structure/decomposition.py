@@ -33,9 +33,8 @@ from graphkin.structure.groups import (
     Unresolved,
 )
 from graphkin.structure.joints import Joints, is_spare, partner, way_between
-from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.pairs import Joint, Pair, Pin, PinLine, Sliding
-from graphkin.structure.turning import LEVEL, guide_on
+from graphkin.structure.turning import LEVEL, body, guide_line, guide_on, metres
 from graphkin.structure.wheel_groups import (
     by_centres,
     by_known,

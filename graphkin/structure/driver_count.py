@@ -10,8 +10,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.numbers.plane import cross
-from graphkin.scene.known_names import quoted
 from graphkin.scene.model import FRAME, Driver, Link, Scene, Slide, link_words
+from graphkin.scene.phrases import quoted
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.groups import (
     CamFollower,
@@ -25,9 +25,8 @@ from graphkin.structure.groups import (
     Tie,
     Unresolved,
 )
-from graphkin.structure.link_axes import guide_line, metres
 from graphkin.structure.pairs import Pin, all_pairs, sharers
-from graphkin.structure.turning import LEVEL
+from graphkin.structure.turning import LEVEL, guide_line, metres
 from graphkin.text.errors import (
     NO_WORDS,
     Change,

@@ -15,8 +15,8 @@ from msgspec import Struct
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.joints import Joints
-from graphkin.structure.link_axes import body, guide_line, metres
 from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.structure.turning import body, guide_line, metres
 
 EVEN = 1e-9
 """Relative difference below which two sums of lengths count as equal."""

@@ -17,8 +17,8 @@ from typing import Any
 from msgspec import Struct
 
 from graphkin.scene.model import FRAME, Link, Scene
-from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Joint, Pin, all_pairs, refuse_loose, sharers
+from graphkin.structure.turning import body
 
 ALIKE = 1e-9
 """Relative difference of two lengths, or of two directions, that rounding leaves."""

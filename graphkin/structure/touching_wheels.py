@@ -7,10 +7,9 @@ from collections.abc import Collection, Iterator, Sequence
 from msgspec import Struct
 
 from graphkin.numbers.plane import Line, cross
-from graphkin.scene.known_names import next_name, quoted
 from graphkin.scene.model import FRAME, Belt, Rolling, Scene, Wheel, link_words, of_one_size
-from graphkin.structure.link_axes import body, metres, through, unit
-from graphkin.structure.turning import LEVEL, stands_along
+from graphkin.scene.phrases import next_name, quoted
+from graphkin.structure.turning import LEVEL, body, metres, stands_along, through, unit
 from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, WrittenInto, message
 
 TOUCH = 1e-9

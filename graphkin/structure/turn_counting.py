@@ -11,8 +11,8 @@ from fractions import Fraction
 
 from graphkin.scene.expression import CONSTANT, Name, Number, Pair, Tree
 from graphkin.scene.findings import numbered
-from graphkin.scene.known_names import place_of
 from graphkin.scene.model import FRAME, Rolling, Scene
+from graphkin.scene.phrases import place_of
 from graphkin.scene.quantity import Quantity, exact
 from graphkin.structure.pairs import contacts
 from graphkin.text.errors import Problem, StructureError, message

@@ -16,7 +16,7 @@ from graphkin.construction.core.given_data import unit_of
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet_documents import drawings_of, language_of, lost
-from graphkin.loops.witness import sure_of
+from graphkin.loops.differences import sure_of
 from graphkin.mechanism import Mechanism
 from graphkin.scene.expression import TIME
 from graphkin.scene.house import PLAIN, house_beside

@@ -25,7 +25,7 @@ from urllib.parse import urlencode
 from msgspec import Struct
 
 from graphkin import __version__
-from graphkin.documents.view_names import VIEWS
+from graphkin.documents import VIEWS
 from graphkin.drawing.richtext import FILES
 from graphkin.drawing.richtext import FOLDER as FONTS
 from graphkin.scene import scene_files

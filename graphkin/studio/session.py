@@ -20,7 +20,7 @@ from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.classroom.sheet_files import hand_out_page, sheet_files
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.documents.view_names import VIEWS
+from graphkin.documents import VIEWS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME

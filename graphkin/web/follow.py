@@ -21,8 +21,8 @@ from graphkin.construction.core.program import plan_vector
 from graphkin.construction.core.solution import Curve
 from graphkin.construction.drivers.driver_symbols import draw_drivers
 from graphkin.construction.guides.slide_symbols import within
-from graphkin.construction.links.gear_symbols import gear
 from graphkin.construction.links.mechanism_symbols import draw_links
+from graphkin.construction.links.wheel_symbols import gear
 from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class

@@ -33,8 +33,7 @@ from graphkin.web.follow import MarkBindings
 from graphkin.web.moving_sheet import MovingSheet
 from graphkin.web.offline_page import MOVING, MOVING_CLOSED, bundled
 from graphkin.web.page_driver import PageDriver, Reach, driven_by, figures
-from graphkin.web.traced_closings import TrackedBranch
-from graphkin.web.tracing import Tracing
+from graphkin.web.tracing import Tracing, TrackedBranch
 from graphkin.writers.templates import marked_up
 
 if TYPE_CHECKING:

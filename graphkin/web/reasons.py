@@ -10,7 +10,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate, Sentence, construction
 from graphkin.construction.core.program import Part, Step
 from graphkin.construction.links.idle_links import IDLE
-from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.normal_component import NormalComponent
 from graphkin.construction.velocity.relative_motion import PerpendicularThrough
 from graphkin.documents.sentences import OWN, SET_ON, TURNING
 from graphkin.numbers.plane import Line

@@ -7,12 +7,11 @@ from pathlib import Path
 
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil import Original, original
-from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.accuracy.pencil import Original, Paper, original
 from graphkin.construction.core import vocabulary
 from graphkin.construction.core.program import Given, Part, Plane, Program, Step
 from graphkin.construction.core.run import run
-from graphkin.construction.normal_component.normal_component import (
+from graphkin.construction.normal_component import (
     NormalComponent,
     bar_line,
     normal,

@@ -7,9 +7,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from graphkin.accuracy.pencil import Pencil, forecast, original, simulated
-from graphkin.accuracy.pencil.forecast import percentile
-from graphkin.accuracy.pencil.pencil import RADIAL
+from graphkin.accuracy.pencil import RADIAL, Pencil, forecast, original, percentile, simulated
 from graphkin.documents.sheet_documents import scales
 from tests.accuracy.originals import D_AWAY, pump, scene
 from tests.chance.checking import case

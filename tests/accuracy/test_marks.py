@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphkin.accuracy.pencil import Pencil
-from graphkin.accuracy.pencil.pencil import PencilMark, mark_of, marked
-from graphkin.accuracy.pencil.redrawing import redrawn
+from graphkin.accuracy.pencil import Pencil, PencilMark, mark_of, marked, redrawn
 from graphkin.construction.core.program import Plane
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text.errors import SceneError

@@ -6,9 +6,16 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil import Pencil, simulated
-from graphkin.accuracy.pencil.pencil import RADIAL, Paper, PencilMark
-from graphkin.accuracy.pencil.redrawing import followed, read_off, redrawn
+from graphkin.accuracy.pencil import (
+    RADIAL,
+    Paper,
+    Pencil,
+    PencilMark,
+    followed,
+    read_off,
+    redrawn,
+    simulated,
+)
 from graphkin.construction.core.program import Plane
 from graphkin.construction.higher_class.closure_solver import closer_of
 from tests.accuracy.originals import pump, scene

@@ -21,7 +21,7 @@ import numpy as np
 from graphkin.construction.compile import write
 from graphkin.construction.core.run import run_blocks
 from graphkin.construction.core.solution import gathered
-from graphkin.construction.tape.batch_runner import BatchRunner
+from graphkin.construction.tape.emitted import BatchRunner
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind
 from graphkin.scene.read_scene import read_scene

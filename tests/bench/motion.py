@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from graphkin.construction.core.run import Trace, run_blocks
-from graphkin.construction.tape.batch_runner import BatchRunner, Way
+from graphkin.construction.tape.emitted import BatchRunner, Way
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind
 from tests.bench.four_bar_in_c import compiled

@@ -34,7 +34,7 @@ from click.testing import CliRunner
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil import Pencil
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.cli.main import app
 from graphkin.drawing.field import A3

@@ -11,7 +11,7 @@ import pytest
 
 from graphkin import load
 from graphkin.accuracy.pencil import Pencil, forecast, original
-from graphkin.cli.report.waits import waits_of
+from graphkin.cli.report.explain_report import waits_of
 from graphkin.construction.core import run as running
 from graphkin.construction.core.timing import Stopwatch, Work, one_position
 from graphkin.diagnosis.effects import BY_COMMAND, BY_HAND, EFFECTS, EffectRow, effects

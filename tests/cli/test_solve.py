@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from graphkin.cli.report.motion_report import sure_lines, verdict_words
+from graphkin.cli.report.solution_record import sure_lines, verdict_words
 from graphkin.construction.core.solution import Verdict
 from graphkin.mechanism import load
 from tests.chosen import FOLDER

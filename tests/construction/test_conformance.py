@@ -18,11 +18,9 @@ from pathlib import Path
 import pytest
 
 import graphkin.construction
-from graphkin.accuracy.pencil.forecast import forecast
-from graphkin.accuracy.pencil.original import original
-from graphkin.accuracy.pencil.pencil import Pencil
-from graphkin.cli.report.motion_report import place_words
+from graphkin.accuracy.pencil import Pencil, forecast, original
 from graphkin.cli.report.pencil_report import pencil_lines, step_words
+from graphkin.cli.report.solution_record import place_words
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Construction, Sentence
 from graphkin.construction.core.layout import lay_out

@@ -10,7 +10,7 @@ from random import Random
 import pytest
 
 from graphkin.construction.core.kind import constructions
-from graphkin.construction.normal_component.normal_component import KleinComponent
+from graphkin.construction.normal_component import KleinComponent
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_scene, read_text
 from tests.scene_files import scene_text

@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 
 from graphkin.construction.guides.slide_symbols import nearest, slot_ends
 from graphkin.construction.links.dyad_by_arcs import arcs_reach
-from graphkin.construction.links.gear_symbols import Mesh, teeth_at
 from graphkin.construction.links.mechanism_symbols import (
     Body,
     label_beside,
     settle_in_plates,
     within,
 )
+from graphkin.construction.links.wheel_symbols import Mesh, teeth_at
 from graphkin.drawing.field import Field
 from graphkin.drawing.labels import FieldContent, Label
 from graphkin.drawing.marks import Polyline, reach

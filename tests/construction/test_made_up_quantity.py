@@ -37,7 +37,7 @@ ADDED = {
             "            made_up.draw(pen, base)\n",
         )
     ],
-    "loops/witness/differences.py": [
+    "loops/differences.py": [
         ('    "pole": of_centres', '    "turning": of_centres(left_at_centre),\n')
     ],
     **{
@@ -91,12 +91,12 @@ from graphkin.classroom.lab.items import asked_fields
 from graphkin.classroom.lab.new_lab import meaning
 from graphkin.cli.report.catalogue import ask_words
 from graphkin.cli.report.cycle_report import cycle_table
-from graphkin.cli.report.motion_report import motion_text
+from graphkin.cli.report.solution_record import motion_text
 from graphkin.cli.report.solution_record import record
 from graphkin.classroom.grading.probes import probes
 from graphkin.documents.sheet import asked_words, sheet
 from graphkin.documents.sheet_documents import drawings_of
-from graphkin.loops.witness.examine import examine
+from graphkin.loops.witness import examine
 from graphkin.mechanism import load
 from graphkin.motion.cycle import cycle
 from graphkin.studio.building import Act, built
@@ -183,6 +183,6 @@ def test_a_quantity_added_to_the_list_is_found_everywhere(tmp_path):
 
 
 def test_a_quantity_without_an_independent_route_is_refused(tmp_path):
-    ran = looked(tmp_path, added(tmp_path, without="loops/witness/differences.py"))
+    ran = looked(tmp_path, added(tmp_path, without="loops/differences.py"))
     assert ran.returncode != 0
     assert "no independent route gives this quantity" in ran.stderr

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphkin.construction.tape.batch_runner import EMITTED_FROM
+from graphkin.construction.tape.emitted import EMITTED_FROM
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import Ask
 from tests.diagnosis.scope import asking, shipped

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.cams.cam_centre import CurvatureCentre
-from graphkin.construction.cams.cam_relations import FORMS, of_cams
+from graphkin.construction.cams.cam_centre import FORMS, CurvatureCentre, of_cams
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.kind import constructions

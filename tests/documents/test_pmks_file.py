@@ -13,7 +13,7 @@ from string import ascii_lowercase, ascii_uppercase, digits
 import numpy as np
 import pytest
 
-from graphkin.documents.pmks_file import pmks_file
+from graphkin.documents.program_files import pmks_file
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text

@@ -22,6 +22,7 @@ from graphkin.construction.core.given_data import variant
 from graphkin.construction.core.quantities import CENTRES, OnPaper, in_mm
 from graphkin.construction.registry import BOARD, PALETTE
 from graphkin.construction.result_tables import WIDTHS
+from graphkin.documents import VIEWS
 from graphkin.documents.calculation import calculation
 from graphkin.documents.centre_tables import centre_words
 from graphkin.documents.sheet import Moved, asked_words
@@ -33,7 +34,6 @@ from graphkin.documents.sheet_documents import (
     proved,
     with_forces,
 )
-from graphkin.documents.view_names import VIEWS
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism, load

@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 
 from graphkin.cli.main import app
-from graphkin.documents.pmks_file import pmks_file
+from graphkin.documents.program_files import pmks_file
 from graphkin.importing.formats import content, imported
 from graphkin.importing.record import DrawnGuide
 from graphkin.importing.scene_text import scene_text

@@ -7,7 +7,7 @@ from graphkin.loops.assemble import closures
 from graphkin.loops.closing_groups import groups
 from graphkin.loops.equations import equations
 from graphkin.loops.loop_motion import pose_of, setting_of, unknowns_of
-from graphkin.loops.witness.examine import examine
+from graphkin.loops.witness import examine
 from graphkin.structure.groups import Higher
 from tests.chance.checking import case
 from tests.chosen import EVERY

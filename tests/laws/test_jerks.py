@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.loops.witness import differences
+from graphkin.loops import differences
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.transmission import all_extremes

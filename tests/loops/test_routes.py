@@ -17,8 +17,9 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.run import run
 from graphkin.construction.core.solution import Solution, gathered
-from graphkin.loops.witness import compare, differences
-from graphkin.loops.witness.differences import ROUTES
+from graphkin.loops import differences
+from graphkin.loops.differences import ROUTES
+from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import Ratio

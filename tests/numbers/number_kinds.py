@@ -17,7 +17,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.program import Given, Program
 from graphkin.construction.core.run import StepFailed, as_of, run, run_batch
-from graphkin.construction.tape.batch_runner import BatchRunner
+from graphkin.construction.tape.emitted import BatchRunner
 from graphkin.numbers.arithmetic import Kind, at, is_ball
 from graphkin.numbers.kinds import array_kind, decimal_kind
 from graphkin.scene.quantity import exact

@@ -22,7 +22,7 @@ from click.testing import CliRunner, Result
 from PIL import Image
 from pypdf import PdfWriter
 
-from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil import Pencil
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.personal import modules

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin import SERVICES
-from graphkin.text.hooks import service
+from graphkin import SERVICES, service
 from tests.rooms.sources import HOUSE, ROOT, source
 
 ORDER = (

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from graphkin.construction.flat_rods import laid
+from graphkin.construction.compile import laid
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text

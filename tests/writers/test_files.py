@@ -16,7 +16,7 @@ import pytest
 
 from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.program import Plane
-from graphkin.construction.normal_component.normal_component import NormalComponent
+from graphkin.construction.normal_component import NormalComponent
 from graphkin.drawing.marks import LineMark
 from graphkin.numbers.plane import Vector
 from graphkin.writers.pdf import write_pdf

@@ -15,8 +15,15 @@ from typing import Any, NamedTuple
 from msgspec import Struct
 from msgspec.structs import astuple, replace
 
-from graphkin.accuracy.pencil.original import together
-from graphkin.accuracy.pencil.pencil import SCALES, Paper, Pencil, PencilMark, mark_of, marked
+from graphkin.accuracy.pencil import (
+    SCALES,
+    Paper,
+    Pencil,
+    PencilMark,
+    mark_of,
+    marked,
+    together,
+)
 from graphkin.classroom.grading.standard import FormLayout, Standard, ruler_unit
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.component import component_of

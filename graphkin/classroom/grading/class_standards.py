@@ -13,8 +13,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.original import original
-from graphkin.accuracy.pencil.pencil import Pencil, PencilMark
+from graphkin.accuracy.pencil import Pencil, PencilMark, original
 from graphkin.classroom.grading.standard import (
     FormLayout,
     Standard,

@@ -18,7 +18,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import SCALES
+from graphkin.accuracy.pencil import SCALES
 from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
 from graphkin.classroom.grading.keys import COMPUTED, Keys, distinct, read_of

@@ -17,7 +17,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import STRAIGHT
+from graphkin.accuracy.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer

@@ -14,7 +14,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import SCALES, STRAIGHT
+from graphkin.accuracy.pencil import SCALES, STRAIGHT
 from graphkin.classroom.grading.answer_numbers import NUMBER, rounding
 from graphkin.classroom.grading.graded import Answer, Graded
 from graphkin.classroom.grading.likelihood import Key

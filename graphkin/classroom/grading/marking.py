@@ -10,7 +10,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.forecast import chi_square_share
+from graphkin.accuracy.pencil import chi_square_share
 from graphkin.classroom.grading.answer_numbers import significant
 from graphkin.classroom.grading.explanations import SheetCauses, explanations
 from graphkin.classroom.grading.follow_through import Following, followings, is_hit, rightly

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 from msgspec import Struct
 from msgspec.structs import astuple, replace
 
-from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.accuracy.pencil import Paper
 from graphkin.classroom.grading.causes import Cause, plan_of
 from graphkin.classroom.grading.explanations import (
     LIKELY,

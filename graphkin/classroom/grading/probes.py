@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.accuracy.pencil import Paper
 from graphkin.classroom.lab.items import arrow_steps, motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.kind import PlanPole, construction

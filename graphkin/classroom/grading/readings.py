@@ -15,7 +15,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import astuple, replace
 
-from graphkin.accuracy.pencil.pencil import SCALES
+from graphkin.accuracy.pencil import SCALES
 from graphkin.classroom.grading.causes import (
     Cause,
     Change,

@@ -10,10 +10,24 @@ from typing import Any, NamedTuple
 
 from msgspec import Struct
 
-from graphkin.accuracy.pencil.forecast import BENT, JOINT, NORMAL_95, SEED, WEIGHT, sources
-from graphkin.accuracy.pencil.original import Original, bar_of, original, together
-from graphkin.accuracy.pencil.pencil import STRAIGHT, Paper, Pencil, PencilMark
-from graphkin.accuracy.pencil.redrawing import COMMON, redrawn
+from graphkin.accuracy.pencil import (
+    BENT,
+    COMMON,
+    JOINT,
+    NORMAL_95,
+    SEED,
+    STRAIGHT,
+    WEIGHT,
+    Original,
+    Paper,
+    Pencil,
+    PencilMark,
+    bar_of,
+    original,
+    redrawn,
+    sources,
+    together,
+)
 from graphkin.classroom.grading.probes import Probe, probes, targets_of
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Rubric

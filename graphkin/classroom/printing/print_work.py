@@ -26,6 +26,7 @@ from graphkin.classroom.printing.personal import (
 from graphkin.classroom.roster.students import Taker
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import parameters
+from graphkin.documents import MOTION_VIEWS
 from graphkin.documents.calculation import calculation
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sheet import title_of
@@ -37,7 +38,6 @@ from graphkin.documents.sheet_documents import (
     proved,
     with_forces,
 )
-from graphkin.documents.view_names import MOTION_VIEWS
 from graphkin.drawing.field import paper_of, text_page
 from graphkin.drawing.marks import Page
 from graphkin.drawing.style import Ink

@@ -13,8 +13,14 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.accuracy.certified import Balls, Certifier, decimals, precisions
-from graphkin.cli.report.motion_report import scale_lines, verdict_words
-from graphkin.cli.report.solution_record import Record, as_given, heading, motion_of
+from graphkin.cli.report.solution_record import (
+    Record,
+    as_given,
+    heading,
+    motion_of,
+    scale_lines,
+    verdict_words,
+)
 from graphkin.construction.core.program import Program, Target
 from graphkin.construction.core.quantities import (
     CENTRES,

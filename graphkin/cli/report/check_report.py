@@ -13,8 +13,13 @@ from math import degrees, isinf, pi
 
 from msgspec.structs import fields, replace
 
-from graphkin.cli.report.motion_report import crossing, flat_words, is_flat, verdict_words
-from graphkin.cli.report.solution_record import heading
+from graphkin.cli.report.solution_record import (
+    crossing,
+    flat_words,
+    heading,
+    is_flat,
+    verdict_words,
+)
 from graphkin.construction.compile import write
 from graphkin.construction.core.branches import translated
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of

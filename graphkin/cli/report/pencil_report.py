@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import degrees, isfinite
 from typing import Any
 
-from graphkin.accuracy.pencil import Forecast
-from graphkin.accuracy.pencil.forecast import Expected
+from graphkin.accuracy.pencil import Expected, Forecast
 from graphkin.cli.report.solution_record import real
 from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.crossings import (

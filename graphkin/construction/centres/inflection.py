@@ -23,7 +23,7 @@ from graphkin.construction.centres.centre import (
     normals_at,
     two_points,
 )
-from graphkin.construction.centres.relative_centre import normals_meet, relative_centre
+from graphkin.construction.centres.instant_centre import normals_meet, relative_centre
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing

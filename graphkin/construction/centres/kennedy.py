@@ -13,7 +13,7 @@ from itertools import combinations
 from math import hypot, sqrt
 
 from graphkin.construction.centres.centre import LineToCentre, normals_at
-from graphkin.construction.centres.relative_centre import (
+from graphkin.construction.centres.instant_centre import (
     GuideCentre,
     LineOfCentres,
     PinCentre,

@@ -32,7 +32,7 @@ from graphkin.numbers.dual_numbers import Dual, rate_of
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import Cam, Scene
 from graphkin.scene.quantity import Quantity
-from graphkin.structure.link_axes import body, guide_line, metres
+from graphkin.structure.turning import body, guide_line, metres
 
 DRAWN = 180
 """Number of points on a profile as drawn."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from graphkin.construction.acceleration.acceleration import end_on_driven
 from graphkin.construction.core.pen import (
     Pen,
     image,
@@ -13,7 +12,7 @@ from graphkin.construction.core.pen import (
 )
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.drivers.driven_slide import slide_image
-from graphkin.construction.group_images import GroupImages, sliding_effect
+from graphkin.construction.group_images import GroupImages, end_on_driven, sliding_effect
 from graphkin.construction.guides.guide_line import (
     axis_by_guide,
     axis_stretched,

@@ -28,7 +28,7 @@ from graphkin.construction.core.relation import (
     squared,
 )
 from graphkin.construction.rate_relations import of_sum
-from graphkin.construction.velocity.turned_velocity import TurnedVelocity
+from graphkin.construction.velocity.turned_vectors import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, Angled, Driver
 from graphkin.scene.quantity import Quantity

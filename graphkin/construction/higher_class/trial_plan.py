@@ -12,8 +12,6 @@ from itertools import groupby
 
 from msgspec import Struct, field
 
-from graphkin.construction.acceleration.acceleration import slid
-from graphkin.construction.acceleration.turned_acceleration import TurnedAcceleration
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
@@ -34,6 +32,7 @@ from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.drivers.driven_slide import DrivenSlide
+from graphkin.construction.group_images import slid
 from graphkin.construction.higher_class.divided_point import (
     CrossedLine,
     DividedPoint,
@@ -43,7 +42,11 @@ from graphkin.construction.higher_class.divided_point import (
 from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.step_marks import point_parts, point_sentence
 from graphkin.construction.velocity.image_of_link import CrossedImage, ImageOfLink, TranslatedImage
-from graphkin.construction.velocity.turned_velocity import LaidOffAboutPivot, LaidOffByRate
+from graphkin.construction.velocity.turned_vectors import (
+    LaidOffAboutPivot,
+    LaidOffByRate,
+    TurnedAcceleration,
+)
 from graphkin.drawing.style import OWN_LINES
 from graphkin.drawing.symbol_markup import TAGS, bar, symbol, tag_words
 from graphkin.numbers.arithmetic import Point

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from graphkin.construction.cams.cam_symbols import face_words
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Sentence, construction, constructions
 from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.higher_class.closed_group import ClosedGroup
+from graphkin.construction.links.mechanism_symbols import face_words
 from graphkin.drawing.symbol_markup import bar, escape
 
 IDLE = "idle"

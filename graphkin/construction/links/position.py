@@ -19,8 +19,8 @@ from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import Apart, Link, Scene
 from graphkin.structure.groups import Crank, Driven, Dyad, Group, OnTwoPins, Tie
-from graphkin.structure.link_axes import body
 from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.structure.turning import body
 from graphkin.text.errors import NO_WORDS, Message, StructureError, message
 
 FITS = 1e-6

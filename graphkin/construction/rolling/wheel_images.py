@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from msgspec import Struct
 
-from graphkin.construction.acceleration.tangential_direction import known_and_free
 from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import GivesRate
@@ -21,6 +20,7 @@ from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import radius_of, seen_from
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
+from graphkin.construction.tangential_direction import known_and_free
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     found_by_turning,

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import STRAIGHT, Pencil
+from graphkin.accuracy.pencil import STRAIGHT, Pencil
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.marking import Marker

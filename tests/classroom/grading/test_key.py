@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil import Pencil
 from graphkin.classroom.grading.class_marking import Book
 from graphkin.classroom.grading.graded import Status
 from graphkin.classroom.grading.marking import sense_is_open

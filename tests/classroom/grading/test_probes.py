@@ -4,7 +4,7 @@ import warnings
 
 import numpy as np
 
-from graphkin.accuracy.pencil.pencil import Paper
+from graphkin.accuracy.pencil import Paper
 from graphkin.classroom.grading.probes import Probe
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.program import Plane

@@ -34,7 +34,7 @@ from graphkin.classroom.printing.personal import (
 from graphkin.classroom.printing.print_work import PrintOrder, Sheets, StudentSheets
 from graphkin.classroom.printing.print_work import make as made
 from graphkin.classroom.roster.students import Student, Taker
-from graphkin.documents.view_names import VIEWS
+from graphkin.documents import VIEWS
 from graphkin.drawing.field import A3, A4_PAGE, LETTER
 from graphkin.drawing.marks import Page, Text
 from graphkin.drawing.richtext import measures, plain

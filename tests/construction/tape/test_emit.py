@@ -14,8 +14,15 @@ from graphkin.construction.core.program import Part, Plane, Program, Step
 from graphkin.construction.core.run import run_batch, run_blocks
 from graphkin.construction.core.solution import smallest_margin
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.tape.batch_runner import EMITTED_FROM, BatchRunner
-from graphkin.construction.tape.emitted import BLOCK, loop_names, loop_source, numpy_source, sin45
+from graphkin.construction.tape.emitted import (
+    BLOCK,
+    EMITTED_FROM,
+    BatchRunner,
+    loop_names,
+    loop_source,
+    numpy_source,
+    sin45,
+)
 from graphkin.construction.tape.graph import COMMUTING, Graph
 from graphkin.construction.tape.traced import TracedNumber, UntraceableError
 from graphkin.mechanism import Mechanism, load

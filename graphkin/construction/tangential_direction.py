@@ -17,7 +17,7 @@ from graphkin.construction.core.naming import letter_at
 from graphkin.construction.core.palette import PERPENDICULAR, KnownError, Picks
 from graphkin.construction.core.pen import Pen, about, acceleration_arrow, component_arrow, letter
 from graphkin.construction.core.program import Step
-from graphkin.construction.normal_component.normal_component import lay_off_normal, normal_component
+from graphkin.construction.normal_component import lay_off_normal, normal_component
 from graphkin.construction.plan import ACCELERATION
 from graphkin.construction.velocity.relative_motion import (
     PerpendicularThrough,
@@ -80,7 +80,7 @@ class BarAcceleration(Struct, frozen=True):
         """The known normal component, drawn by the method that the scene asks for in a dyad."""
         if sides is None or pen.scene.sheet.method != KLEIN:
             return normal_component(pen, self.pivot, self.point)
-        from graphkin.construction.normal_component.normal_component import component_in_dyad
+        from graphkin.construction.normal_component import component_in_dyad
 
         return component_in_dyad(pen, sides, self.pivot, self.point)
 
@@ -115,6 +115,6 @@ def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
 def refuse_unused_method(pen: Pen) -> None:
     """Raise StructureError where the scene's method for components applies to none of them."""
     if pen.scene.sheet.method == KLEIN:
-        from graphkin.construction.normal_component.normal_component import refuse_unused
+        from graphkin.construction.normal_component import refuse_unused
 
         refuse_unused(pen)

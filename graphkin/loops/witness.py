@@ -1,4 +1,10 @@
-"""The residual check: a solution compared with the vector loops, its branches, and the verdict."""
+"""The residual check: a solution compared with vector loops independent of its construction.
+
+A disagreement is the absolute difference divided by the largest magnitude of that quantity in the
+scene. A scale is at least a thousandth of the value expected from the other quantities (v ≈ ω·L and
+so on). Near singular positions it is at least the share of rounding in the limit. Otherwise the
+rounding of a quantity that is zero everywhere would count as a difference.
+"""
 
 from __future__ import annotations
 
@@ -31,11 +37,7 @@ from graphkin.loops.assemble import (
 )
 from graphkin.loops.cam_laws import by_law, without_linkages
 from graphkin.loops.closing_groups import Group, counted_in_order, groups, speaks_of, stages
-from graphkin.loops.equations import Equations, equations, joined, part_of
-from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
-from graphkin.loops.newton import LoopSolution, Start, closed_from, refuse_undriven, start_values
-from graphkin.loops.rigid_bodies import Reals
-from graphkin.loops.witness.differences import (
+from graphkin.loops.differences import (
     LEAST_LIMIT,
     Differences,
     Magnitudes,
@@ -43,6 +45,10 @@ from graphkin.loops.witness.differences import (
     digits_of,
     or_one,
 )
+from graphkin.loops.equations import Equations, equations, joined, part_of
+from graphkin.loops.loop_motion import Motion, pose_of, setting_of, unknowns_of
+from graphkin.loops.newton import LoopSolution, Start, closed_from, refuse_undriven, start_values
+from graphkin.loops.rigid_bodies import Reals
 from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 

@@ -1,1 +1,0 @@
-"""Acceleration components that follow from the velocity of a point about another."""
