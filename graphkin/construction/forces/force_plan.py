@@ -7,7 +7,7 @@ Norton, Design of Machinery, chapter 11.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import count
 from typing import NamedTuple
 
@@ -201,6 +201,7 @@ class ForcePlan:
             self.acting = loads_of(pen, pen.scene.forces, self.arms)
         self.acting[FRAME] = []
         self.loads = {link: tuple(some) for link, some in self.acting.items()}
+        self.links: tuple[str, ...] = ()
         self.polygons = count(1)
         self.reactions: list[PairForce] = []
         self.balances: list[DriverForce] = []
@@ -209,6 +210,7 @@ class ForcePlan:
         """Draw every group, then the lever of a mechanism with one driver."""
         driving: list[tuple[Crank | Driven | Cylinder, int]] = []
         for group in reversed(groups):
+            self.links = group.links
             match group:
                 case Dyad(inner=Pin()):
                     self.by_inner_pin(group.type, group.inner, *self.sides_of(group))
@@ -252,6 +254,11 @@ class ForcePlan:
         """The step of a guide."""
         assert isinstance(pair, Sliding)
         return self.pen.the("guide", pair.block)
+
+    @property
+    def on_group(self) -> Iterator[LinkForce]:
+        """The forces so far on the links of the group that is drawn."""
+        return (each for link in self.links for each in self.acting[link])
 
     def enter(
         self, pair: Joint | CamPair, link: str, force: int, place: int, couple: int | None = None
@@ -362,7 +369,7 @@ class ForcePlan:
             self.at_pin(pair, link, force)
             return
         name, guide = self.name(pair, link), self.guide(pair)
-        place, couple = on_guide(self.pen, name, link, guide, force, moments)
+        place, couple = on_guide(self.pen, name, link, guide, force, moments, self.on_group)
         self.give(pair, link, force, place, couple=couple)
         self.turn(pair, link, couple)
 
@@ -416,7 +423,7 @@ class ForcePlan:
         one, other = near[0], far[0]
         name, guide = self.name(inner, one), self.guide(inner)
         force = pressure(pen, name, next(self.arms), (other, inner.block), guide, own, others)
-        place, couple = on_guide(pen, name, one, guide, force, others)
+        place, couple = on_guide(pen, name, one, guide, force, others, self.on_group)
         self.pressed(inner, one, force, place, couple)
         self.turn(inner, one, couple, both=True)
         for link, pin in (far, near):
@@ -466,7 +473,8 @@ class ForcePlan:
         pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
         back, moments = self.back(pushed), self.about(pair.place, one)
-        place, couple = on_guide(pen, self.name(inner, one), one, guides[0], back, moments)
+        name, guide = self.name(inner, one), guides[0]
+        place, couple = on_guide(pen, name, one, guide, back, moments, self.on_group)
         self.pressed(inner, one, back, place, couple)
         self.turn(inner, one, couple, both=True)
         rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
@@ -505,7 +513,7 @@ class ForcePlan:
         self.acting[rod].append(pin)
         push, force, moments = self.along_and_across(rod, pair, "cylinder")
         name, guide = self.name(pair, rod), self.guide(pair)
-        place, couple = on_guide(pen, name, rod, guide, force, moments)
+        place, couple = on_guide(pen, name, rod, guide, force, moments, self.on_group)
         self.enter(pair, rod, force, place, couple)
         self.drive(cylinder.driver, rod, push, turns=False)
         return push
