@@ -17,6 +17,7 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import RATE, MotionQuantity, in_mm
 from graphkin.construction.core.relation import Relation, answer, value_of
 from graphkin.construction.core.run import Trace
+from graphkin.construction.forces.belt_force import BeltStrand
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.line_force import LineForce, SlidePressure
 from graphkin.construction.forces.loads import (
@@ -180,7 +181,7 @@ def is_point(value: Any) -> bool:
     return isinstance(value, complex)
 
 
-FOUND = SlidePressure, ToothForce, RackForce, LineForce
+FOUND = SlidePressure, ToothForce, RackForce, LineForce, BeltStrand
 """The kinds of reactions that other constructions than polygons give."""
 
 
