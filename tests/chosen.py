@@ -26,6 +26,7 @@ CHOSEN = (
         "cam-roller",
         "centrodes-roller",
         "bar-on-roller",
+        "belts-forces",
         "crank-slot",
         "cylinders-two",
         "excavator-relative",

@@ -161,7 +161,10 @@ def by_radii(
     remark = sense(drawing.words, whole)
     unit = drawing.rate.caret_unit
     reason = "why.radii" if fixed else "why.willis"
-    return Relation(wheel, symbols, figures, result, unit, remark, turns=True, reason=reason)
+    takes = track if fixed and names[2] != FRAME else ""
+    return Relation(
+        wheel, symbols, figures, result, unit, remark, turns=True, reason=reason, takes=takes
+    )
 
 
 def radius_of(disc: Disc) -> str:

@@ -18,10 +18,10 @@ from graphkin.numbers.plane import Vector
 from graphkin.text.tables import CellTable, Row
 
 WIDTHS = {"vectors": (13.5, 13.5, 13, 16), "turns": (13, 14, 33), "slides": (12.5, 12, 31.5)}
-WIDTHS |= {"sides": (13.5, 13, 16), "balance": (20, 30, 20)}
+WIDTHS |= {"sides": (13.5, 13, 16), "balance": (20, 30, 20), "arms": (13, 13)}
 """Widths of the columns of each table on paper, in mm."""
 NUMBERS = {"vectors": (2, 3), "turns": (1,), "slides": (1,)}
-NUMBERS |= {"sides": (1, 2), "balance": (1, 2)}
+NUMBERS |= {"sides": (1, 2), "balance": (1, 2), "arms": (1,)}
 """The columns of numbers of each table; those before them name the row."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
@@ -179,7 +179,12 @@ def result_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
 
 
 def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
-    """The tables of a sheet, as paper rules them."""
+    """The tables of a sheet, as paper rules them; a key of forces has its arms, too."""
+    every = result_tables(drawing, empty=empty)
+    if drawing.kind == FORCE and not empty:
+        from graphkin.construction.forces.force_drawing import arm_table
+
+        every += [table] if (table := arm_table(drawing)).rows else []
     return [
         ColumnTable(
             WIDTHS[table.kind][: len(table.heads)],
@@ -188,7 +193,7 @@ def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
             beside=table.kind == "turns",
             numbers=tuple(i for i in NUMBERS[table.kind] if i < len(table.heads)),
         )
-        for table in result_tables(drawing, empty=empty)
+        for table in every
     ]
 
 

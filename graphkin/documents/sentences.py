@@ -28,6 +28,7 @@ from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.program import Part, Plane, Step, is_set_on, plan_vector
 from graphkin.construction.core.quantities import FORCE, number_of, quantity_text
 from graphkin.construction.core.relation import Relation, answer, beside_plan
+from graphkin.construction.forces.belt_force import belt_letter
 from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.construction.forces.loads import (
     InertiaForce,
@@ -376,6 +377,13 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
         )
         found.append(valued(f"l_0{own}", quantity_text(scene, words, spring.free)))
         remarks.append(Datum(words("page.spring", bar=ends, c=symbol(f"c_{own}" if own else "c"))))
+    for name, rolling in scene.belts:
+        belt = rolling.belt
+        if belt is not None and belt.tension is not None:
+            letter, between = belt_letter(scene, belt), {"one": rolling.on, "other": name}
+            found.append(valued(letter, quantity_text(scene, words, belt.tension.number)))
+            fields = {"t": symbol(letter), **{end: escape(e) for end, e in between.items()}}
+            remarks.append(Datum(words(f"page.belt_{belt.tension.key}", **fields)))
     return [*found, *remarks]
 
 

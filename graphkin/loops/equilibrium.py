@@ -212,12 +212,10 @@ class Touching(Struct, frozen=True):
 
 
 def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
-    """The contacts of wheels. Raises StructureError for belts, whose tension nothing states."""
+    """The contacts of wheels that touch."""
     for each in contacts(scene):
         if each.rolling.belt is not None:
-            found = message("the forces of the belt of {links}", links=joined_words(each.links))
-            hint = message("equilibrium gives the difference of both strands, not their sum")
-            raise StructureError.at("loads", found, message("wheels that touch"), hint)
+            continue
         centre, track = pin_of(motion, each.wheel.centre), each.track
         if track is None:
             line = line_of(scene, motion, each)
@@ -234,6 +232,66 @@ def touching_of(scene: Scene, motion: Motion) -> Iterator[Touching]:
         name, pressure = "-".join(each.links), PRESSURE if teeth else 0.0
         kept = each.arm is not None
         yield Touching(name, each.links, place, 1j * away, away, kept, pressure)
+
+
+class Strands(Struct, frozen=True):
+    """The strands of a belt, left and right as seen from its wheel, and what fixes their tensions.
+
+    ``key`` and ``number`` are those of the belt's StrandTension. ``tight`` is the place of the
+    tight strand, None while it is not known.
+    """
+
+    links: tuple[str, str]
+    columns: tuple[Column, Column]
+    key: str
+    number: float
+    tight: int | None = None
+
+    @property
+    def row(self) -> tuple[float, float, float]:
+        """The factors of both tensions, and what they add up to.
+
+        While the tight strand is not known, the tensions have no sum: their difference is right.
+        """
+        if self.tight is None:
+            return 1.0, 1.0, 0.0
+        if self.key == "pretension":
+            return 1.0, 1.0, 2 * self.number
+        by_slack = self.key == "slack"
+        factors = (0.0, 1.0) if by_slack else (1.0, -self.number)
+        one, other = factors if self.tight == 0 else factors[::-1]
+        return one, other, self.number if by_slack else 0.0
+
+
+def belts_of(scene: Scene, motion: Motion) -> Iterator[Strands]:
+    """The belts. Raises StructureError for a belt whose tension nothing states."""
+    for each in contacts(scene):
+        belt = each.rolling.belt
+        if belt is None:
+            continue
+        if belt.tension is None:
+            raise StructureError.at(
+                "loads",
+                message("the forces of the belt of {links}", links=joined_words(each.links)),
+                message("slack, pretension or ratio among the keys of the belt"),
+                message("equilibrium gives the difference of both strands, not their sum"),
+            )
+        assert each.track is not None
+        centre, other = pin_of(motion, each.wheel.centre), pin_of(motion, each.track.centre)
+        own, on = radius(scene, each.wheel), radius(scene, each.track)
+        columns = []
+        for name, side in (("left", 1), ("right", -1)):
+            # the strand is square to both radii: their sum or difference is its height
+            height = own + on if belt.crossed else own - on
+            apart = abs(other - centre)
+            long = math.sqrt(apart**2 - height**2)
+            along = (other - centre) / apart * complex(long, -side * height) / apart
+            place = centre + 1j * side * own * along
+            named = "-".join((*each.links, name))
+            columns.append(Column(named, each.links, place, along, 0.0))
+        yield Strands(
+            each.links, (columns[0], columns[1]), belt.tension.key, si(belt.tension.number, scene)
+        )
 
 
 def line_of(scene: Scene, motion: Motion, contact: Contact) -> Line:
@@ -332,13 +390,35 @@ def equilibrium(scene: Scene, forces: Forces, motion: Motion) -> Equilibrium:
     touching = system.without_pressing([*touching_of(scene, motion), *cams_of(scene, motion)])
     columns = system.columns(touching)
     values = system.solved(forces, columns)
-    if any(each.pressure for each in touching):
+    if system.belts or any(each.pressure for each in touching):
         along = {c.name: v for c, v in reversed([*zip(columns, values, strict=True)])}
         columns = system.columns(
             [replace(e, side=1 if along[e.name] > 0 else -1) for e in touching]
         )
+        system.tighten(along)
         values = system.solved(forces, columns)
+        refuse_loose_strands(system.belts, columns, values)
     return gathered(columns, values, system.size)
+
+
+def refuse_loose_strands(
+    belts: Sequence[Strands], columns: Sequence[Column], values: Sequence[float]
+) -> None:
+    """Raise StructureError for a strand that would have to push."""
+    largest = max(map(abs, values))
+    found = dict(zip((each.name for each in columns), values, strict=True))
+    for belt in belts:
+        least = min(found[each.name] for each in belt.columns)
+        if least < -HELD * largest:
+            raise StructureError.at(
+                "loads",
+                message(
+                    "the slack strand of the belt of {links} would push with {force} N",
+                    links=joined_words(belt.links),
+                    force=f"{-least:.4g}",
+                ),
+                message("a larger pretension, so that both strands pull"),
+            )
 
 
 class System:
@@ -348,7 +428,9 @@ class System:
         self.scene, self.motion = scene, motion
         self.size = float(np.max(motion.loops.size))
         self.about = pin_of(motion, next(iter(scene.points)))
-        self.pairs = [*columns_of(scene, motion)]
+        self.belts = [*belts_of(scene, motion)]
+        strands = (column for each in self.belts for column in each.columns)
+        self.pairs = [*columns_of(scene, motion), *strands]
         links = (name for name in scene.links if name not in scene.cam_links)
         self.rows = {name: 3 * k for k, name in enumerate(links)}
 
@@ -358,14 +440,23 @@ class System:
 
     def matrix(self, columns: Sequence[Column]) -> Reals:
         """The coefficients of some unknowns; moments are parts of the longest length."""
-        found = np.zeros((3 * len(self.rows), len(columns)))
+        found = np.zeros((3 * len(self.rows) + len(self.belts), len(columns)))
         for j, column in enumerate(columns):
             turned = moment(column.place - self.about, column.force) / self.size + column.couple
             entries = np.array([complex(column.force).real, complex(column.force).imag, turned])
             for link, sign in zip(column.links, (1, -1), strict=True):
                 if link != FRAME:
                     found[self.rows[link] : self.rows[link] + 3, j] += sign * entries
+        places = {column.name: j for j, column in enumerate(columns)}
+        for row, belt in zip(found[3 * len(self.rows) :], self.belts, strict=True):
+            left, right = (places[each.name] for each in belt.columns)
+            row[left], row[right], _ = belt.row
         return found
+
+    def tighten(self, along: Mapping[str, float]) -> None:
+        """Note the tight strand of each belt, by the tensions that have no sum."""
+        tight = (0 if along[belt.columns[0].name] > 0 else 1 for belt in self.belts)
+        self.belts = [replace(e, tight=k) for e, k in zip(self.belts, tight, strict=True)]
 
     def without_pressing(self, touching: list[Touching]) -> list[Touching]:
         """The contacts, without the pressing force where other pairs keep the distance as well.
@@ -382,7 +473,8 @@ class System:
 
     def solved(self, forces: Forces, columns: list[Column]) -> list[float]:
         """The unknowns. Raises StructureError where the equations do not determine them."""
-        matrix, right = self.matrix(columns), np.zeros(3 * len(self.rows))
+        matrix = self.matrix(columns)
+        right = np.array([0.0] * 3 * len(self.rows) + [each.row[2] for each in self.belts])
         for each in known_forces(self.scene, forces, self.motion):
             turned = (moment(each.place - self.about, each.force) + each.couple) / self.size
             k = self.rows[each.link]
@@ -467,7 +559,9 @@ def power(
 def by_equations(scene: Scene, motion: Motion, here: Equilibrium) -> ForceSolution:
     """The reactions and balances of the equations, for groups without a construction."""
     guides = guides_of(scene, motion)
-    touching = {e.name: e for e in (*touching_of(scene, motion), *cams_of(scene, motion))}
+    strands = (column for each in belts_of(scene, motion) for column in each.columns)
+    some: list[Touching | Column] = [*touching_of(scene, motion), *cams_of(scene, motion), *strands]
+    touching = {each.name: each for each in some}
     reactions = []
     for (name, link), (force, turned) in here.pairs.items():
         number = guides.get(name)

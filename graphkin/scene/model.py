@@ -184,10 +184,29 @@ def between_centres(wheels: Sequence[Wheel], sizes: Sequence[Quantity]) -> Quant
     return combined("-" if other.inside else "+", second, first)
 
 
+class StrandTension(Struct, frozen=True):
+    """What fixes the tensions in both strands of a belt, beside the moment that it carries.
+
+    ``key`` is one of TENSIONS, ``number`` its value: a force in N, or a ratio.
+    """
+
+    key: str
+    number: Quantity
+
+
+TENSIONS = {"slack": "N", "pretension": "N", "ratio": ""}
+"""What a scene may state of a belt's tensions, with its unit.
+
+They are the tension in the slack strand, the mean of both strands, and the ratio of the tight
+strand's tension to the slack one's.
+"""
+
+
 class Belt(Struct, frozen=True):
     """A belt, chain or rope round two wheels, ``crossed`` or open."""
 
     crossed: bool = False
+    tension: StrandTension | None = None
 
     @property
     def sense(self) -> int:
@@ -752,8 +771,13 @@ class Scene(Struct, frozen=True, dict=True):
     @property
     def belted(self) -> tuple[tuple[str, str], ...]:
         """The pairs of links that a belt joins."""
+        return tuple((name, each.on) for name, each in self.belts)
+
+    @property
+    def belts(self) -> Iterator[tuple[str, Rolling]]:
+        """The belts, each with the link that has its key."""
         links = self.links.values()
-        return tuple((link.name, each.on) for link in links for each in link.rolls if each.belt)
+        return ((link.name, each) for link in links for each in link.rolls if each.belt)
 
     def turn_alike(self, name: str, rolling: Rolling) -> bool:
         """Whether an open belt joins a wheel of link ``name`` with another of the same size."""

@@ -17,12 +17,14 @@ from graphkin.scene.findings import Findings, Table, numbered, shown
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
+    TENSIONS,
     At,
     Belt,
     Driver,
     Link,
     Rolling,
     Scene,
+    StrandTension,
     Wheel,
     between_centres,
     lengths_of,
@@ -39,7 +41,7 @@ from graphkin.scene.phrases import (
 )
 from graphkin.scene.quantity import Quantity, combined, exact, shortest
 from graphkin.scene.read_joints import MOST, read_line, tables
-from graphkin.text.errors import NO_WORDS, Hint, Mend, SceneError, message
+from graphkin.text.errors import NO_WORDS, Hint, Mend, SceneError, joined, message
 
 BY_RADIUS_OR_TEETH = message("radius = …, or teeth = … and module = …")
 OTHER = message("the link that carries the other wheel, 0 for the frame")
@@ -359,13 +361,36 @@ def read_drums(table: Table, measures: Measures) -> tuple[Rolling, ...]:
 
 
 def read_belt(table: Table, measures: Measures) -> Rolling:
-    """One belt: ``{ on, crossed, wheels, start, turns }``; ``wheels`` count from one."""
+    """One belt: ``{ on, crossed, wheels, start, turns }``, with its tension.
+
+    ``wheels`` count from one.
+    """
     on = link_name(table.at("on"), table.take("on"), measures.findings, OTHER) or FRAME
     crossed, wheels = table.flag("crossed"), read_pair(table, measures) or (0, 0)
     start = by_link(table, "start", measures, measures.units["angle"])
     turns = by_link(table, "turns", measures, "")
+    belt = Belt(crossed, read_tension(table, measures))
     table.finish()
-    return Rolling(on, None, None, start, 1, turns, Belt(crossed), wheels=wheels)
+    return Rolling(on, None, None, start, 1, turns, belt, wheels=wheels)
+
+
+def read_tension(table: Table, measures: Measures) -> StrandTension | None:
+    """The tension that a belt states; None for a belt without one."""
+    given = {key: raw for key in TENSIONS if (raw := table.take(key)) is not None}
+    if not given:
+        return None
+    key = next(iter(given))
+    place, findings = table.at(key), measures.findings
+    if len(given) > 1:
+        found = message("both {keys}", keys=joined(", ", given))
+        findings.add(table.place, found, message("one of {keys}", keys=joined(", ", TENSIONS)))
+    number = measures.number(place, given[key], TENSIONS[key])
+    least = 1 if key == "ratio" else 0
+    value = number.number(measures.values)
+    if value < least or (key == "ratio" and value == least):
+        above = message("a number above 1")
+        findings.add(place, shown(number.text), above if least else message("a number not below 0"))
+    return StrandTension(key, number)
 
 
 def read_pair(table: Table, measures: Measures) -> tuple[int, int] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ import shapely
 from graphkin.classroom.sheet_files import sheet_files
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.program import Part
+from graphkin.construction.forces.moments import ForceArm
 from graphkin.construction.forces.polygon import PolygonStart
 from graphkin.documents.diagrams_sheet import force_courses
 from graphkin.documents.force_fields import force_drawing, traced
@@ -93,6 +95,36 @@ def test_lever_and_polygons_agree_and_the_sheet_says_it(name):
     shown = (mark for page in sheet_of(name, "key") for mark in texts(page))
     (said,) = {mark.markup for mark in shown if mark.name == "witness"}
     assert "equations of equilibrium" in said and "lever and polygons" in said
+
+
+def printed_arms(name: str, view: str = "key") -> dict[str, str]:
+    """The arms of a sheet's tables, by their symbols."""
+    cells = [m for page in sheet_of(name, view) for m in texts(page) if style_class(m) == "table"]
+    rows = pairwise(cells)
+    return {one.markup: plain(two.markup) for one, two in rows if one.markup[:3] in ("*h*", "*H*")}
+
+
+@pytest.mark.parametrize("name", ("four-bar", "shaper", "gas-engine"))
+def test_the_key_has_the_arms_of_weights_and_of_the_lever(name):
+    """A weight has the horizontal distance of its line; on the lever, the arm is a power."""
+    drawing, printed = forces_of(name), printed_arms(name)
+    values, found = drawing.trace.values, 0
+    for each in constructions(drawing.trace.program, ForceArm):
+        if each.name.startswith("G_") and symbol(each.number) in printed:
+            apart = abs((values[each.place] - values[each.about]).real)
+            assert printed[symbol(each.number)] == f"{drawing.on_paper(apart):.2f}"
+            found += 1
+    (lever,) = drawing.lever_balances()
+    for _, number, moment, force, arm in lever.terms(drawing):
+        if force and arm > 0.3:
+            length = abs(moment) / force / drawing.scales.k_lever * 1000
+            assert printed[symbol(number)] == f"{length:.2f}"
+            found += 1
+    assert found > 3
+
+
+def test_a_task_lists_no_arms():
+    assert not printed_arms("four-bar", "task")
 
 
 @pytest.mark.parametrize("name", NAMES)

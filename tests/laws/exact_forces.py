@@ -11,7 +11,7 @@ Of the program it uses the numbers of the scene, and six digits of a position as
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import accumulate, pairwise, product
 from typing import Any
@@ -64,7 +64,8 @@ class Equation:
     """What vanishes between the poses of some links at a time, and whose force its gradient is.
 
     ``push`` replaces the gradient where the force is not along it: a place and a direction of the
-    force on the first link, the opposite acting on the second.
+    force on the first link, the opposite acting on the second. ``pulls`` are those of both strands
+    of a belt, whose ``rule`` fixes their tensions; the multiplier is their difference.
     """
 
     name: str
@@ -74,6 +75,24 @@ class Equation:
     about: tuple[str, str] | None = None
     push: Callable[[Poses], tuple[Any, Any]] | None = None
     teeth: bool = False
+    pulls: Callable[[Poses], Iterator[tuple[Any, Any]]] | None = None
+    rule: tuple[str, Any] = ("", 0)
+
+    def tensions(self, side: Any, times: Any = 1) -> tuple[Any, Any]:
+        """What the left and the right strand carry for each unit of their difference.
+
+        ``side`` is 1 where the left one is tight, -1 where the right one is, 0 for the mean.
+        """
+        key, number = self.rule
+        if key == "pretension" or not side:
+            return times / mp.mpf(2), -times / mp.mpf(2)
+        tight, slack = (1, 0) if key == "slack" else (number / (number - 1), 1 / (number - 1))
+        return (times * tight, times * slack) if side > 0 else (-times * slack, -times * tight)
+
+    @property
+    def before(self) -> Any:
+        """What both strands carry without a difference."""
+        return mp.mpf(0) if self.rule[0] == "ratio" else self.rule[1]
 
 
 @dataclass
@@ -223,8 +242,11 @@ class Exact:
     def wheels(self) -> Iterator[Equation]:
         """Rims come equally far; a wheel that nothing else keeps stays at its track."""
         for contact in contacts(self.scene):
-            if contact.rolling.belt is not None or (contact.track and contact.arm is None):
-                raise UnsupportedError("belts, and wheels on wheels without an arm")
+            if contact.track and contact.arm is None:
+                raise UnsupportedError("wheels on wheels without an arm")
+            belt = contact.rolling.belt
+            if belt is not None and belt.tension is None:
+                raise UnsupportedError("a belt whose tension nothing states")
             yield from self.on_wheel(contact) if contact.track else self.on_track(contact)
 
     def rim(self, wheel: Wheel) -> Any:
@@ -237,6 +259,9 @@ class Exact:
         (name, on), arm, track = contact.links, contact.arm, contact.track
         assert arm is not None and track is not None
         own, other = self.rim(contact.wheel), self.rim(track)
+        belt = contact.rolling.belt
+        if belt is not None and not belt.crossed:
+            other = -other
         shares = {name: own, on: other}
         shares[arm] = shares.get(arm, 0) - own - other
         start = {each: self.si(angle) for each, angle in contact.rolling.start.items()}
@@ -254,9 +279,21 @@ class Exact:
                 away = -away
             return base + other * away, away
 
+        def pulls(poses: Poses) -> Iterator[tuple[Any, Any]]:
+            centre = self.named(poses, name, contact.wheel.centre)
+            way = self.named(poses, on, track.centre) - centre
+            lean = mp.acos((own + other) / abs(way))
+            for side in (1, -1):
+                radius = mp.expj(mp.arg(way) + side * lean)
+                yield centre + own * radius, -side * 1j * radius
+
         teeth = contact.wheel.teeth is not None or track.teeth is not None
         links = tuple(dict.fromkeys((name, on, arm)))
         miss = lambda poses, time: rolled(poses) - whole  # noqa: E731
+        if belt is not None:
+            rule = belt.tension.key, self.si(belt.tension.number)
+            yield Equation(f"{name}-{on}", links, miss, pulls=pulls, rule=rule)
+            return
         yield Equation(f"{name}-{on}", links, miss, push=push, teeth=teeth)
 
     def whole_turns(self, rolled: Any, shares: list[Any]) -> Any:
@@ -514,8 +551,12 @@ class Exact:
         columns = [
             self.column(each, poses, matrix[k, :], 0) for k, each in enumerate(self.equations)
         ]
+        belts = [each for each in self.equations if each.pulls is not None]
         values = mp.lu_solve(joined(columns), -right)
-        if any(each.teeth for each in self.equations):
+        if belts or any(each.teeth for each in self.equations):
+            for belt in belts:
+                for pull in belt.pulls(poses):
+                    right += self.wrench(belt, *pull, poses) * belt.before
             sides = [mp.sign(value) for value in values]
             pairs = enumerate(zip(self.equations, sides, strict=True))
             columns = [self.column(each, poses, matrix[k, :], side) for k, (each, side) in pairs]
@@ -523,7 +564,15 @@ class Exact:
             for each, side, value in zip(self.equations, sides, values, strict=True):
                 assert not each.teeth or mp.sign(value) == side
         for each, column, value in zip(self.equations, columns, values, strict=True):
-            self.enter(found, each, value * column, poses)
+            if each.pulls is None:
+                self.enter(found, each, value * column, poses)
+                continue
+            strands = ("left", "right")
+            both = zip(each.pulls(poses), each.tensions(value, value), strands, strict=True)
+            for pull, more, strand in both:
+                named = replace(each, name=f"{each.name}-{strand}")
+                tension = each.before + more
+                self.enter(found, named, tension * self.wrench(each, *pull, poses), poses)
         return found
 
     def motions(self, poses: Poses, first: Poses, second: Poses) -> dict[str, Any]:
@@ -598,10 +647,18 @@ class Exact:
 
     def column(self, each: Equation, poses: Poses, gradient: Any, side: Any) -> Any:
         """What a unit multiplier of an equation does to each link."""
+        if each.pulls is not None:
+            both = zip(each.tensions(side), each.pulls(poses), strict=True)
+            one, other = (more * self.wrench(each, *pull, poses) for more, pull in both)
+            return one + other
         if each.push is None:
             return gradient.T
         place, away = each.push(poses)
         force = 1j * away + (side * mp.tan(mp.radians(PRESSURE)) * away if each.teeth else 0)
+        return self.wrench(each, place, force, poses)
+
+    def wrench(self, each: Equation, place: Any, force: Any, poses: Poses) -> Any:
+        """A force at a place on the first link of an equation, and its opposite on the second."""
         found = mp.matrix(3 * len(self.moving), 1)
         for link, sign in zip(each.links[:2], (1, -1), strict=True):
             if link != FRAME:

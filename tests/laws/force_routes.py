@@ -17,6 +17,7 @@ from graphkin.documents.force_fields import traced
 from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism, gathered
 from graphkin.scene.forces import Forces, Load, Mass
+from graphkin.scene.model import Link, StrandTension
 from graphkin.scene.quantity import Quantity, exact
 
 
@@ -43,7 +44,22 @@ def loaded(mechanism: Mechanism, rng: random.Random) -> Mechanism:
         Load(turned, "", None, number(rng, -90, 90, "N·m")),
     )
     gravity = exact(0, "m/s²"), exact("-9.81", "m/s²")
+    scene = replace(scene, links={name: taut(link, rng) for name, link in scene.links.items()})
     return Mechanism(replace(scene, forces=Forces(masses, gravity, loads, balance=True)))
+
+
+def taut(link: Link, rng: random.Random) -> Link:
+    """The link with a tension in the slack strand, or a ratio of tensions, of each belt."""
+    rolls = []
+    for each in link.rolls:
+        if each.belt is not None and each.belt.tension is None:
+            slack = StrandTension("slack", number(rng, 0, 400, "N"))
+            ratio = StrandTension("ratio", number(rng, 1.5, 4, ""))
+            tension = slack if rng.random() < 0.5 else ratio
+            rolls.append(replace(each, belt=replace(each.belt, tension=tension)))
+        else:
+            rolls.append(each)
+    return replace(link, rolls=tuple(rolls))
 
 
 def number(rng: random.Random, low: float, high: float, unit: str) -> Quantity:

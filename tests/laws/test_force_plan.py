@@ -272,11 +272,12 @@ def test_they_do_for_chains_of_dyads_with_masses_and_loads_at_random(made, seed)
     assert max(differences(mechanism), default=0.0) < 1e-9
 
 
-@pytest.mark.parametrize("seed", [73, 408, 577, 909, *range(12)])
+@pytest.mark.parametrize("seed", [73, 408, 577, 909, 910687, *range(12)])
 def test_they_do_for_chains_of_all_dyads_with_masses_and_loads_at_random(seed):
     """73: a mass without acceleration on a link that turns; 408: a guide with a couple alone.
 
-    909: loads that do no work. ``python -m tests.chance.forces 2000`` looks at more.
+    909: loads that do no work; 910687: a couple on a block whose guide has no force.
+    ``python -m tests.chance.forces 2000`` looks at more.
     """
     made = dyads(seed)
     assert made is not None

@@ -163,6 +163,7 @@ KINDS = {
         "shaper-forces",
         "jaw-crusher-forces",
         "gears-forces",
+        "belts-forces",
     ),
     "Mobility": (
         "mobility-parallel-cranks",

@@ -324,7 +324,7 @@ def in_mm(words: Words, length: OnPaper) -> str:
 def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:
     """A quantity as printed: in its written unit, in the style of the language."""
     unit = unit_words(words, quantity.unit)
-    return number_of(scene, words, quantity) + ("" if unit == "°" else " ") + unit
+    return number_of(scene, words, quantity) + ("" if unit in ("", "°") else " ") + unit
 
 
 def unit_words(words: Words, unit: str) -> str:

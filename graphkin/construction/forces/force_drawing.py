@@ -14,10 +14,11 @@ from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.program import Part, Plane, Step
-from graphkin.construction.core.quantities import RATE, MotionQuantity, in_mm
+from graphkin.construction.core.quantities import RATE, MotionQuantity, OnPaper, in_mm
 from graphkin.construction.core.relation import Relation, answer, value_of
 from graphkin.construction.core.run import Trace
-from graphkin.construction.forces.lever import LeverBalance
+from graphkin.construction.forces.belt_force import BeltStrand
+from graphkin.construction.forces.lever import LeverBalance, LeverForce
 from graphkin.construction.forces.line_force import LineForce, SlidePressure
 from graphkin.construction.forces.loads import (
     ByTable,
@@ -25,10 +26,11 @@ from graphkin.construction.forces.loads import (
     drawn_force,
     load_names,
     moment_name,
+    on_lever,
     reaction_names,
     sub,
 )
-from graphkin.construction.forces.moments import BalancingMoment
+from graphkin.construction.forces.moments import SEEN, BalancingMoment, ForceArm
 from graphkin.construction.forces.polygon import (
     ClosedByLines,
     ClosingReaction,
@@ -180,12 +182,14 @@ def is_point(value: Any) -> bool:
     return isinstance(value, complex)
 
 
-FOUND = SlidePressure, ToothForce, RackForce, LineForce
+FOUND = SlidePressure, ToothForce, RackForce, LineForce, BeltStrand
 """The kinds of reactions that other constructions than polygons give."""
+ARMS = ForceArm, LineForce, SlidePressure, LeverForce
+"""The kinds of constructions that have an arm of a force."""
 
 
 def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
-    """The tables of a sheet of forces: reactions, arms, and the balance by both routes."""
+    """The tables of a sheet of forces: reactions, and the balance by both routes."""
     words = drawing.words
     assert isinstance(drawing, ForceDrawing)
     rows = []
@@ -201,6 +205,32 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
         over = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
         found.append(CellTable(over[: len(balance[0].cells)], balance, kind="balance"))
     return [table for table in found if table.rows]
+
+
+def arm_table(drawing: Drawing) -> CellTable:
+    """The arms that moment equations use, on the mechanism and on the lever, in mm on paper."""
+    words = drawing.words
+    assert isinstance(drawing, ForceDrawing)
+    rows = [
+        Row((symbol(number), in_mm(words, length)), number) for number, length in arms_of(drawing)
+    ]
+    return CellTable((words("table.arm"), words("table.millimetres")), rows, kind="arms")
+
+
+def arms_of(drawing: ForceDrawing) -> Iterator[tuple[str, OnPaper]]:
+    """The arms that are drawn, by their symbols."""
+    values = drawing.trace.values
+    for number, step in enumerate(drawing.trace.program.steps):
+        kind = step.of
+        if step.role != "foot" or not isinstance(kind, ARMS):
+            continue
+        if isinstance(kind, LeverForce):
+            length = on_lever(drawing, float(abs(values[number])))
+        else:
+            about = kind.about if isinstance(kind, ForceArm) else kind.moments.about
+            length = OnPaper(drawing.on_paper(float(abs(values[number] - values[about]))))
+        if length > SEEN and drawing.settled(abs(values[kind.force])):
+            yield kind.number, length
 
 
 def forces_asked(drawing: Drawing) -> Iterator[Relation]:

@@ -7,7 +7,7 @@ Norton, Design of Machinery, chapter 11.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import count
 from typing import NamedTuple
 
@@ -18,6 +18,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
 from graphkin.construction.core.quantities import BALANCING_FORCE, BALANCING_MOMENT, PAIR_REACTION
 from graphkin.construction.core.vocabulary import along_bar
+from graphkin.construction.forces.belt_force import STRANDS, belt_strands
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import (
     along_line,
@@ -53,7 +54,7 @@ from graphkin.construction.forces.polygon import (
 )
 from graphkin.construction.forces.tooth_force import pitch_of, pitch_on, pressure_angle, rack, tooth
 from graphkin.scene.findings import natural
-from graphkin.scene.model import FRAME, Driver, Scene, Wheel
+from graphkin.scene.model import FRAME, Belt, Driver, Scene, Wheel
 from graphkin.structure.groups import (
     CamFollower,
     Crank,
@@ -92,7 +93,10 @@ def is_drawn(scene: Scene, group: Group) -> bool:
             return isinstance(dyad.inner, Pin) and all(
                 is_plain(scene, pair) for pair in (*slides, *group.outer)
             )
-        case Geared(link=link, pair=pair, contact=contact) if contact.rolling.belt is None:
+        case Geared(link=link, pair=pair, contact=contact):
+            belt = contact.rolling.belt
+            if belt is not None and (belt.tension is None or not isinstance(pair, Pin)):
+                return False
             if isinstance(pair, Pin):
                 wheel = contact.track if contact.links[0] != link else contact.wheel
                 return wheel is not None and wheel.centre == pair.place
@@ -190,6 +194,22 @@ class CamPair(NamedTuple):
         return "-".join(self.links)
 
 
+class StrandPair(NamedTuple):
+    """A wheel and the one from which a strand of its belt comes: left or right."""
+
+    links: tuple[str, str]
+    strand: str
+
+    @property
+    def name(self) -> str:
+        """The name of its reaction."""
+        return "-".join((*self.links, self.strand))
+
+
+Forcing = Joint | CamPair | StrandPair
+"""What transmits a force between two links."""
+
+
 class ForcePlan:
     """The plan of forces while it is drawn: what acts on each link so far."""
 
@@ -201,6 +221,7 @@ class ForcePlan:
             self.acting = loads_of(pen, pen.scene.forces, self.arms)
         self.acting[FRAME] = []
         self.loads = {link: tuple(some) for link, some in self.acting.items()}
+        self.links: tuple[str, ...] = ()
         self.polygons = count(1)
         self.reactions: list[PairForce] = []
         self.balances: list[DriverForce] = []
@@ -209,6 +230,7 @@ class ForcePlan:
         """Draw every group, then the lever of a mechanism with one driver."""
         driving: list[tuple[Crank | Driven | Cylinder, int]] = []
         for group in reversed(groups):
+            self.links = group.links
             match group:
                 case Dyad(inner=Pin()):
                     self.by_inner_pin(group.type, group.inner, *self.sides_of(group))
@@ -238,23 +260,29 @@ class ForcePlan:
     def new_polygon(self, links: Sequence[str], kind: str) -> Polygon:
         return Polygon(self.pen, next(self.polygons), links, kind)
 
-    def partner(self, pair: Joint | CamPair, link: str) -> str:
+    def partner(self, pair: Forcing, link: str) -> str:
         """The other link of a pair."""
         first, second = pair.links
         return second if link == first else first
 
-    def name(self, pair: Joint | CamPair, link: str, part: str = "") -> str:
+    def name(self, pair: Forcing, link: str, part: str = "") -> str:
         """The symbol of the reaction on a link in a pair, and of its part."""
         index = link_pair(self.partner(pair, link), link)
-        return f"R_{index}" + (f"^{part}" if part else "")
+        prime = STRANDS[pair.strand][0] if isinstance(pair, StrandPair) else ""
+        return f"R{prime}_{index}" + (f"^{part}" if part else "")
 
     def guide(self, pair: Joint) -> int:
         """The step of a guide."""
         assert isinstance(pair, Sliding)
         return self.pen.the("guide", pair.block)
 
+    @property
+    def on_group(self) -> Iterator[LinkForce]:
+        """The forces so far on the links of the group that is drawn."""
+        return (each for link in self.links for each in self.acting[link])
+
     def enter(
-        self, pair: Joint | CamPair, link: str, force: int, place: int, couple: int | None = None
+        self, pair: Forcing, link: str, force: int, place: int, couple: int | None = None
     ) -> None:
         """Enter the reaction on a link among the results."""
         links = link, self.partner(pair, link)
@@ -265,12 +293,13 @@ class ForcePlan:
             name = "-".join(pair.links)
             found = PairForce(name, links, pair.block, force, place, about, couple)
         else:
-            found = PairForce("-".join(pair.links), links, pair.links[0], force, place)
+            name = "-".join(pair.links) if isinstance(pair, Contact) else pair.name
+            found = PairForce(name, links, pair.links[0], force, place)
         self.reactions.append(found)
 
     def give(
         self,
-        pair: Joint | CamPair,
+        pair: Forcing,
         link: str,
         force: int,
         place: int,
@@ -278,11 +307,15 @@ class ForcePlan:
         couple: int | None = None,
     ) -> None:
         """Enter the reaction on a link, drawn on the mechanism, and pass its opposite on."""
-        pen, other = self.pen, self.partner(pair, link)
         self.enter(pair, link, force, place, couple)
-        if other == FRAME:
-            applied(pen, LinkForce(self.name(pair, link), REACTION, force, place, at=at))
+        if self.partner(pair, link) == FRAME:
+            applied(self.pen, LinkForce(self.name(pair, link), REACTION, force, place, at=at))
             return
+        self.pass_on(pair, link, force, place, at)
+
+    def pass_on(self, pair: Forcing, link: str, force: int, place: int, at: str = "") -> None:
+        """Pass the opposite of the reaction on a link to the other link of the pair."""
+        pen, other = self.pen, self.partner(pair, link)
         back = pen.make(PassedReaction(name=self.name(pair, other), force=self.back(force))).force
         passed = LinkForce(self.name(pair, other), REACTION, back, place, at=at)
         self.acting[other].append(applied(pen, passed))
@@ -362,7 +395,7 @@ class ForcePlan:
             self.at_pin(pair, link, force)
             return
         name, guide = self.name(pair, link), self.guide(pair)
-        place, couple = on_guide(self.pen, name, link, guide, force, moments)
+        place, couple = on_guide(self.pen, name, link, guide, force, moments, self.on_group)
         self.give(pair, link, force, place, couple=couple)
         self.turn(pair, link, couple)
 
@@ -416,7 +449,7 @@ class ForcePlan:
         one, other = near[0], far[0]
         name, guide = self.name(inner, one), self.guide(inner)
         force = pressure(pen, name, next(self.arms), (other, inner.block), guide, own, others)
-        place, couple = on_guide(pen, name, one, guide, force, others)
+        place, couple = on_guide(pen, name, one, guide, force, others, self.on_group)
         self.pressed(inner, one, force, place, couple)
         self.turn(inner, one, couple, both=True)
         for link, pin in (far, near):
@@ -443,7 +476,7 @@ class ForcePlan:
         return any(each.couple is not None or each.place != place for each in self.acting[link])
 
     def pressed(
-        self, pair: Joint | CamPair, link: str, force: int, place: int, couple: int | None = None
+        self, pair: Forcing, link: str, force: int, place: int, couple: int | None = None
     ) -> None:
         """Enter the force of a guide, wheel or cam on one link, and its opposite on the other."""
         self.acting[link].append(LinkForce(self.name(pair, link), REACTION, force, place))
@@ -466,7 +499,8 @@ class ForcePlan:
         pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
         outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
         back, moments = self.back(pushed), self.about(pair.place, one)
-        place, couple = on_guide(pen, self.name(inner, one), one, guides[0], back, moments)
+        name, guide = self.name(inner, one), guides[0]
+        place, couple = on_guide(pen, name, one, guide, back, moments, self.on_group)
         self.pressed(inner, one, back, place, couple)
         self.turn(inner, one, couple, both=True)
         rest = moments_about(pen, place, pair.place, self.acting[other], self.arms)
@@ -505,7 +539,7 @@ class ForcePlan:
         self.acting[rod].append(pin)
         push, force, moments = self.along_and_across(rod, pair, "cylinder")
         name, guide = self.name(pair, rod), self.guide(pair)
-        place, couple = on_guide(pen, name, rod, guide, force, moments)
+        place, couple = on_guide(pen, name, rod, guide, force, moments, self.on_group)
         self.enter(pair, rod, force, place, couple)
         self.drive(cylinder.driver, rod, push, turns=False)
         return push
@@ -588,6 +622,9 @@ class ForcePlan:
         assert isinstance(pin, Pin)
         other = self.partner(contact, link)
         moments = self.about(pin.place, link)
+        if contact.rolling.belt is not None:
+            self.belted(link, contact, contact.rolling.belt, pin, moments)
+            return
         if contact.track is None:
             inside, angle = False, pressure_angle(contact.wheel)
             pitch = pitch_on(pen, moments.about, pen.the("track", contact.links[0]))
@@ -599,6 +636,26 @@ class ForcePlan:
         found = tooth(pen, name, link, pitch, angle, moments, outward=inside)
         self.pressed(contact, link, found.force, pitch)
         self.read_off(name, self.closed_at("", link, pin))
+
+    def belted(self, link: str, contact: Contact, belt: Belt, pin: Pin, moments: Moments) -> None:
+        """A wheel on a pivot: the forces of both strands of its belt, then its polygon.
+
+        Strands are left or right as seen from the wheel that the scene names with the belt.
+        """
+        other = self.partner(contact, link)
+        sense = 1 if link == contact.links[0] or belt.crossed else -1
+        pairs = {each: StrandPair(contact.links, each) for each in STRANDS}
+        names = {each: self.name(pair, link) for each, pair in pairs.items()}
+        wheels = contact.wheel_of(link), contact.wheel_of(other)
+        for each, found in [*belt_strands(self.pen, link, names, wheels, belt, moments, sense)]:
+            own = LinkForce(names[each], REACTION, found.force, found.edge)
+            self.acting[link].append(applied(self.pen, own))
+            self.enter(pairs[each], link, found.force, found.edge)
+            if other != FRAME:
+                self.pass_on(pairs[each], link, found.force, found.end)
+        polygon = self.closed_at("", link, pin)
+        for name in names.values():
+            self.read_off(name, polygon)
 
     def train(self, group: Train) -> None:
         """A wheel between two known wheels, on an arm about their centre.

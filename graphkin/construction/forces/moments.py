@@ -505,23 +505,33 @@ def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: M
 
 
 def on_guide(
-    pen: Pen, name: str, link: str, guide: int, reaction: int, moments: Moments
+    pen: Pen,
+    name: str,
+    link: str,
+    guide: int,
+    reaction: int,
+    moments: Moments,
+    acting: Iterable[LinkForce],
 ) -> tuple[int, int | None]:
     """The place of a guide's reaction on a link, and the couple that replaces it where it is zero.
 
-    It is at the pin itself, without a couple, where no force has a moment about that pin.
+    It is at the pin itself, without a couple, where no force has a moment about that pin. A
+    reaction is zero beside the forces ``acting`` on the links whose polygon gives it.
     """
     if not moments.terms:
         return moments.about, None
-    inputs = moments.about, guide, reaction, *moments.steps
+    others = [e.force for e in acting if e.force is not None and e.force not in moments.steps]
+    beside = [step for force in others for step in (moments.about, force)]
+    inputs = moments.about, guide, reaction, *beside, *moments.steps
+    count = (moments.extra[0] + len(others),)
     with pen.on(Part.FORCE, Plane.MECHANISM):
-        place = pen.draw(place_by_moments, *inputs, extra=moments.extra)
+        place = pen.draw(place_by_moments, *inputs, extra=count)
     found = PlaceOnGuide(
         name=name, number=f"x_{link}", link=link, moments=moments, reaction=reaction, place=place
     )
     pen.make(found)
     with pen.on(Part.FORCE, Plane.NUMBERS):
-        return place, pen.draw(left_couple, *inputs, extra=moments.extra)
+        return place, pen.draw(left_couple, *inputs, extra=count)
 
 
 class BalancingMoment(Construction, frozen=True, kw_only=True):
