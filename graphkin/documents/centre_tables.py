@@ -15,7 +15,7 @@ from graphkin.numbers.arithmetic import at
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import guides_under
-from graphkin.text.tables import NOISE, Cell, number, table
+from graphkin.text.tables import NOISE, Cell, cleaned, number, table
 
 FAR = 1e9
 """Distance beyond which a centre counts as at infinity, in breadths of the mechanism."""
@@ -120,7 +120,7 @@ def centre_words(ratio: Ratio | None, breadth: float) -> str:
     """The place of an instantaneous centre (m), or its direction at infinity."""
     place = place_of(ratio, breadth)
     if place is not None:
-        return point_words(place)
+        return point_words(place, breadth)
     if ratio is None or ratio.shift == 0:
         return "every point: the link is at rest"
     return f"at infinity, in direction {number(direction(ratio.shift) % 180)}°"
@@ -130,7 +130,7 @@ def pole_words(ratio: Ratio | None, acceleration: complex | None, breadth: float
     """The place of an acceleration pole (m), or the common direction when it is at infinity."""
     place = place_of(ratio, breadth)
     if place is not None:
-        return point_words(place)
+        return point_words(place, breadth)
     if ratio is None or not acceleration:
         return "every point: none of them accelerates"
     return f"at infinity: all accelerate alike, towards {number(direction(acceleration))}°"
@@ -178,10 +178,9 @@ def pair_words(pair: list[float | None]) -> str:
     return point_words(complex(*known)) if len(known) == len(pair) else NOT_SURE
 
 
-def point_words(place: complex) -> str:
-    """A point's coordinates in brackets."""
+def point_words(place: complex, breadth: float = 0.0) -> str:
+    """A point's coordinates in brackets; rounding errors of a mechanism so broad are zeros."""
     if not isfinite(place):
         return NOT_SURE
-    largest_part = max(abs(place.real), abs(place.imag))
-    x, y = (0.0 if abs(part) <= NOISE * largest_part else part for part in (place.real, place.imag))
+    x, y = (cleaned(part, max(abs(place), breadth)) for part in (place.real, place.imag))
     return f"({number(x)}, {number(y)})"

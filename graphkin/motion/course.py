@@ -338,13 +338,15 @@ class Course(Struct, frozen=True, dict=True):
 
     def loci(self, number: int, at: float) -> tuple[Any, ...]:
         """The two loci that a step crosses at one u; empty where they are not known."""
-        found: dict[int, Any] = {}
-        values = self.values(np.array([at]))
+        here = np.array([at])
+        values = self.values(here)
+        closed = self.closing(values, here).items()
+        found: dict[int, Any] = {n: tuple(part[0] for part in parts) for n, parts in closed}
         floats = {k: float(v[0]) if hasattr(v, "shape") else v for k, v in values.items()}
         step = self.program.steps[number]
         try:
             for n in Program(self.program.steps, {("", ""): number}).needed([("", "")]):
-                if n != number:
+                if n != number and n not in found:
                     found[n] = evaluate(self.program.steps[n], n, found, floats, FLOAT, {})
         except (StepFailed, KeyError):
             return ()

@@ -443,9 +443,19 @@ def check_rolling(
 ) -> None:
     """Note a track without a wheel or line, unknown links in it, and turns that are not whole."""
     check_guide(scene, link, rolling, place, findings)
+    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if not link.wheels:
         expected = message('wheel = {{ centre = "P", radius = … }}')
-        findings.add(place, message("link {name} has no wheel", name=link.name), expected)
+        hint: Hint = NO_WORDS
+        if link.slides and on is not None and on.wheels and rolling.belt is None:
+            hint = message(
+                "if link {rack} is a rack, write rolls = {{ on = {quoted}, through = …, "
+                "angle = … }} in {wheel}",
+                rack=link.name,
+                quoted=quoted(link.name),
+                wheel=link_words(rolling.on),
+            )
+        findings.add(place, message("link {name} has no wheel", name=link.name), expected, hint)
     elif rolling.through is not None and rolling.belt is None and link.rim.inside:
         expected = message("a rim outside; of a hoop: wheels = [{{ …, inside = true }}, {{ … }}]")
         findings.add(
@@ -453,13 +463,12 @@ def check_rolling(
             message("the ring of {name} on a straight track", name=link_words(link.name)),
             expected,
         )
-    on = scene.links.get(rolling.on, scene.frame if rolling.on == FRAME else None)
     if rolling.through is None and on is not None and not on.wheels and on is not link:
         expected = message("a wheel there, or through and angle for a straight track")
         if rolling.belt is not None:
             expected = message('a wheel there: wheel = {{ centre = "P", radius = … }}')
         wheels = [name for name, each in scene.links.items() if each.wheels and each is not link]
-        hint: Hint = NO_WORDS
+        hint = NO_WORDS
         if len(wheels) == 1:
             hint = Mend(f"on = {quoted(rolling.on)}", f"on = {quoted(wheels[0])}")
         found = message("{on} has no wheel to roll on", on=link_words(rolling.on))

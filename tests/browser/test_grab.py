@@ -93,6 +93,16 @@ def test_a_pin_moves_by_keys_and_the_motion_plays(kept: Opened, pump: Path):
     assert page.evaluate(DRIVER) == held
 
 
+def test_the_motion_plays_before_the_first_step(kept: Opened, pump: Path):
+    """No step is shown yet, so none lists crossings: a page that stops there is heard."""
+    page = kept(pump, "#step=0", **DESKTOP)
+    before = page.evaluate(DRIVER)
+    page.keyboard.press("m")
+    page.clock.run_for(400)
+    page.keyboard.press("m")
+    assert page.evaluate(DRIVER) > before + 2
+
+
 def test_a_figure_leads_all_that_hangs_on_it(opened: Opened, pump: Path):
     """n = 8: φ = 30 + 2n = 46°, n1 = 300 + 10n = 380 rev/min, and v_D with them."""
     page = opened(pump, "#step=14", **DESKTOP)

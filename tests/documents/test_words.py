@@ -24,7 +24,7 @@ from graphkin.construction.registry import BOARD, PALETTE
 from graphkin.construction.result_tables import WIDTHS
 from graphkin.documents import VIEWS
 from graphkin.documents.calculation import calculation
-from graphkin.documents.centre_tables import centre_words
+from graphkin.documents.centre_tables import centre_words, pole_words
 from graphkin.documents.sheet import Moved, asked_words
 from graphkin.documents.sheet_documents import (
     CALCULATED,
@@ -357,6 +357,13 @@ def test_a_direction_is_told_without_its_rounding(slip):
     """Along the x axis it is 0°, neither 3.86018e-15° nor 180°."""
     parallel = Ratio(0j, complex(1.0, slip), 0.0)
     assert centre_words(parallel, 1.0) == "at infinity, in direction 0°"
+
+
+def test_a_pole_is_told_without_its_rounding():
+    """Rounding errors of a mechanism one metre broad are zeros, and not a place beside O."""
+    turning = Ratio(0j, complex(-3e-18, 3e-17), 1.0)
+    assert centre_words(turning, 1.0) == pole_words(turning, 1j, 1.0) == "(0, 0)"
+    assert centre_words(turning, 1e-16) == "(-3.00000e-18, 3.00000e-17)"
 
 
 def test_a_parameter_called_as_its_unit_is_told_without_it():

@@ -18,6 +18,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.motion.closures_followed import carried, carried_about, changes, numbers_at
 from graphkin.motion.course import Course
 from graphkin.motion.cycle import cycle
+from graphkin.motion.events import singulars
 from graphkin.motion.follower_limits import followers
 from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import Closure
@@ -239,6 +240,14 @@ def test_a_followed_mechanism_is_that_of_a_search_and_needs_none(swept, monkeypa
         assert motion.position == pytest.approx(sought.points[name].position, abs=1e-12)
         assert motion.velocity == pytest.approx(sought.points[name].velocity, abs=1e-11)
     assert led.trial_rates
+
+
+def test_the_words_of_a_dead_point_are_those_of_the_followed_closure(monkeypatch):
+    path = cycle(load("examples/scenes/stephenson-3-crank.toml")).path
+    sought = singulars(path)
+    monkeypatch.setattr(Trying, "closures_of", lambda *known: pytest.fail("searched again"))
+    assert singulars(path) == sought
+    assert {each.kind for each in sought} == {"dead"}
 
 
 def test_trial_rates_are_the_best_of_all_pairs():

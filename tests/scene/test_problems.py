@@ -290,6 +290,14 @@ PLANETS = [
 ]
 
 
+def test_of_a_rack_the_pinion_rolls(problems: Finders) -> None:
+    """The rack's own rolls are refused with the rolls of its pinion."""
+    rack = ('wheel = { centre = "P", radius = 30 }', 'slides = { on = 0, along = "P-O" }')
+    wrong = problems(*rack, "planet")
+    assert any('write rolls = { on = "planet", through' in str(each.hint) for each in wrong)
+    assert any("in link sun" in str(each.hint) for each in wrong)
+
+
 @pytest.mark.parametrize(("old", "new", "place", "found", "more"), PLANETS)
 def test_wheels_and_tracks(
     problems: Finders, old: str, new: str, place: str, found: str, more: str

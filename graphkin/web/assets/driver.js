@@ -6,7 +6,7 @@ import { follow_pins } from "./grab.js";
 import { halos } from "./halos.js";
 import { written } from "./numbers.js";
 import { byId, data, motion, moved, page, state } from "./page.js";
-import { places, tell_rates, warn } from "./sentences.js";
+import { crossings_of, tell_rates, warn } from "./sentences.js";
 import { sheets } from "./sheets.js";
 import { read } from "./values.js";
 import { lift } from "./writing.js";
@@ -89,7 +89,7 @@ function place_driver(x) {
   if (!state.dead) read();
   tell_rates();
   page.classList.toggle("silent", state.dead);
-  warn(byId("told"), places[state.step - 1]?.crossings ?? []);
+  warn(byId("told"), crossings_of(state.step));
   halos();
 }
 

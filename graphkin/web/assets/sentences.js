@@ -24,6 +24,9 @@ export const places = [...document.querySelectorAll("#steps li")].map((item, i) 
   };
 });
 
+/** The crossings listed with a step; none at the beginning. */
+export const crossings_of = step => places[step - 1]?.crossings ?? [];
+
 /** Show the sentence of the step and mark it in the list; at the beginning, show the task. */
 export function say() {
   const count = state.step
@@ -83,13 +86,13 @@ function current(element, is, word) {
 
 /** Write the sentence of a step, its reasons, its note, and its flattest crossing. */
 export function tell(told, step) {
-  const { say: words, why, aside, crossings } = places[step - 1] ?? { crossings: [] };
+  const { say: words, why, aside } = places[step - 1] ?? {};
   told.querySelector("#sentence").replaceChildren(...(words ? copies(words) : [data.task[1]]));
   told.querySelector("#reason").replaceChildren(...lines(why));
   told.querySelector("#because").hidden = !why;
   told.querySelector("#behind").hidden = !step;
   told.querySelector("#aside").replaceChildren(...(aside ? copies(aside) : []));
-  warn(told, crossings);
+  warn(told, crossings_of(step));
 }
 
 /** Write the rates at the driver's position: for the current step, and after a movement in the list. */

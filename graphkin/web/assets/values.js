@@ -3,7 +3,7 @@ import { html_element } from "./elements.js";
 import { rates_read } from "./highlights.js";
 import { significant, written } from "./numbers.js";
 import { byId, copies, data, motion, state } from "./page.js";
-import { places } from "./sentences.js";
+import { crossings_of } from "./sentences.js";
 import { here, sheets } from "./sheets.js";
 
 /** The column of the size in each kind of table. */
@@ -52,9 +52,7 @@ export function read() {
         TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
     });
   }
-  read_margins(
-    going ? places[state.step - 1].crossings : document.querySelectorAll("#steps .crossing"),
-  );
+  read_margins(going ? crossings_of(state.step) : document.querySelectorAll("#steps .crossing"));
   read_out();
 }
 
