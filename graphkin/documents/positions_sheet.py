@@ -204,7 +204,7 @@ def caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
     """The caption of the field: the scale, and what is drawn how."""
     words = drawing.words
     count = len(found.numbered) if is_whole(found.cycle) else len(found.numbered) - 1
-    scale, kL = words.decimal(drawing.scales.words), f"{length_scale(drawing)} m/mm"
+    scale, kL = words.decimal(drawing.scales.words), f"{length_scale(drawing)} {words.unit('m/mm')}"
     said = words("page.mechanism_heading", scale=scale, kL=kL)
     more = words("positions.strong", number=found.shown.name, count=count)
     text = f"{said};  {more}"
@@ -452,7 +452,7 @@ def draw_stroke(board: FieldContent, found: PositionSet, field: Field) -> None:
         draw_swing(board, travel, [field(drawing.positions[p]) for p in travel.line], name, text)
     elif ends := block_ends(board, found, field):
         size = words.significant(drawing.length(travel.extent), 4)
-        text = f"*H* = {size} {drawing.scene.units['length']}"
+        text = f"*H* = {size} {drawing.words.spelled(drawing.scene.units['length'])}"
         board.marks += dimension(*ends, name)
         board.labels.append(Label(text, "", ends[2:], 2.5, name, priority=3))
 
