@@ -146,11 +146,14 @@ def slide_sense(drawing: Drawing, block: str, value: float) -> str:
     return drawing.words(f"calculation.{key}", guide=way_of(drawing, block))
 
 
-def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
-    """The marks of all tables: vectors in one or more blocks, then angular values, then blocks."""
+def tables(drawing: Drawing, rect: Rect, *, empty: bool, spare: float = 0.0) -> list[Mark]:
+    """The marks of all tables: vectors in one or more blocks, then angular values, then blocks.
+
+    ``spare`` is a height in mm that they leave free above their notes.
+    """
     some = column_tables(drawing, empty=empty)
     note = reasons(drawing, [row for table in some for row in table.rows], rect)
-    low = rect[3] - LEADING * len(note)
+    low = rect[3] - LEADING * len(note) - spare
     corner = drawing.paper.code if empty else 0.0
     return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty, corner=corner)]
 

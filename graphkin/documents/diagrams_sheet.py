@@ -841,8 +841,8 @@ def force_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
         size = np.iscomplexobj(between)
         letter = found.shown.alone.symbol(target[1])
         values = (np.abs(here), np.abs(between)) if size else (here, between)
-        text, look = (f"|{letter}|", "reaction") if size else (letter, "balance")
-        made.append(Asked(text, quantity.unit, target[1], look, *values))
+        text = f"|{letter}|" if size else letter
+        made.append(Asked(text, quantity.unit, target[1], "reaction", *values))
     return made
 
 

@@ -155,7 +155,8 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
     paper = drawing.paper
     if paper.is_parted:
         marks = [mark for mark in marks if reach(mark)[2] < paper.across]
-    given = data(own, solved=False, laws=True)
+    by_time = found.cycle.sweep.driver is None
+    given = data(own, solved=not by_time, laws=by_time)
     try:
         return [*marks, *(in_table(paper, given, x, y) or in_lines(own, given, x, y, float))]
     except PageError:

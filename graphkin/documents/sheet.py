@@ -813,13 +813,10 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     checks = [] if view == "task" else checked_lines(drawing, width)
     first = low + 0.4 - CLOSE * (len(checks) - 1)
     if view == "key":
-        place = drawing, left, top + 10.5, width, first - 3.9
         try:
-            listing = listed(*place)
+            listing = listed(drawing, left, top + 10.5, width, first - 3.9)
         except PageError:
-            column = left, top + 10.5, min(left + width, paper.marked[0]), first - 3.9
-            free = below_tables(paper, found)
-            listing, said = around_tables(drawing, column, free, first_part(*place))
+            listing, said, found = beside_tables(drawing, (left, top + 10.5, first - 3.9))
             if said < len(sentences(drawing)):
                 moved.add(Moved.CONSTRUCTION)
         marks = [construction_head(drawing, left, top + 4.5), *listing]
@@ -836,21 +833,53 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     return [*marks, *flattest_line(drawing, left + extent(checks[-1], LETTERS)[0])], moved, said
 
 
+SPARE = (0.0, *range(5, 31, 5))
+"""Heights in mm below the tables of a key that are tried where sentences go on there."""
+
+
+def beside_tables(
+    drawing: Drawing, column: tuple[float, float, float]
+) -> tuple[list[Mark], int, list[Mark]]:
+    """The sentences of a long construction, how many of them fit, and the tables beside them.
+
+    ``column`` has the left end of the sentences, their first baseline and their lowest one. The
+    tables are as low as the sentences that go on below them need.
+    """
+    paper, (left, top, low) = drawing.paper, column
+    best: tuple[list[Mark], int, list[Mark]] = ([], -1, [])
+    for spare in SPARE:
+        found, moved, wider = placed_tables(drawing, "key", spare)
+        if spare and moved:
+            break
+        width = paper.writing - wider - left - 2
+        place = left, top, min(left + width, paper.marked[0]), low
+        part = first_part(drawing, left, top, width, low)
+        listing, said = around_tables(drawing, place, below_tables(paper, found), part)
+        if said > best[1]:
+            best = listing, said, found
+        if said == len(sentences(drawing)):
+            break
+    return best
+
+
 WIDER = (0.0, 4.0, 8.0, 12.0, 16.0, 20.0, 24.0, 28.0)
 """Extra widths of the tables beside sentences that are tried, in mm."""
 
 
-def placed_tables(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], float]:
+def placed_tables(
+    drawing: Drawing, view: str, spare: float = 0.0
+) -> tuple[list[Mark], set[Moved], float]:
     """The tables, the part that does not fit, and how much wider than usual they are, in mm.
 
-    Tables beside the sentences of a key take some of their width where they need it.
+    Tables beside the sentences of a key take some of their width where they need it, and leave a
+    ``spare`` height free.
     """
     paper, task = drawing.paper, view == "task"
     left, *others = paper.empty_tables if task else paper.tables
     where = paper.tables[0], paper.tables[1] + 4.5
     for wider in WIDER[: 1 if task or paper.is_leaf else None]:
         rect: Rect = (left - wider, others[0], others[1], others[2])
-        made = partial(tables, drawing, rect, empty=task)
+        made = partial(tables, drawing, rect, empty=task, spare=spare)
         found, moved = with_room(drawing, Moved.TABLES, made, *where)
         if not moved:
             return found, moved, wider

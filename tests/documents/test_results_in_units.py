@@ -58,9 +58,7 @@ METRES = re.compile(r"(?<![\w*])[mм](?=/[sсmм])|= [\d.,·]+ [mм]\b")
 """Metres as a unit in a text."""
 
 
-LATIN = re.compile(
-    r"(?<=[\d)] )\(?(mm|cm|m|rad|N|N·m|kg|kg·m²|N/m)\b|(?<![\w{])(m/s|rad/s|N/mm)"
-)
+LATIN = re.compile(r"(?<=[\d)] )\(?(mm|cm|m|rad|N|N·m|kg|kg·m²|N/m)\b|(?<![\w{])(m/s|rad/s|N/mm)")
 """Latin letters of a unit after a number, or in a ratio."""
 
 
@@ -220,3 +218,11 @@ def test_results_of_a_scene_with_masses_are_in_metres(unit, is_read):
         return
     with pytest.raises(SceneError, match=f"units.results: {unit}: .* in metres"):
         read_text(stated, "x")
+
+
+@pytest.mark.parametrize(("size", "written"), [(1, "1:1"), (2, "1:2"), (4, "1:4"), (6, "1:8")])
+def test_scales_of_inches_are_full_half_quarter_and_eighth(size: int, written: str) -> None:
+    longer = INCHES.replace("O-A = 2", f"O-A = {2 * size}").replace("A-B = 6", f"A-B = {6 * size}")
+    (first, *_) = hand_out(Mechanism(read_text(longer, "x")), "key", "en")
+    marks = [m for m in first.pages[0].marks if isinstance(m, Text) and m.name == "scale"]
+    assert written in [mark.markup for mark in marks]
