@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 from functools import partial
-from itertools import islice
+from itertools import accumulate, islice, pairwise
+from math import ceil
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -188,6 +190,8 @@ BESIDE = {1: (ROW, 2.75), 2: (ROW, 0.5), 3: (3.6, -0.2)}
 The offset is from the baseline of the first line: one line is centred on the table, two are level
 with its rows, three are as high as the table.
 """
+BETWEEN = 1.2
+"""Distance of tables of data one below another, and of the lines below them, in mm."""
 SPACED, CLOSE = 4.2, 3.85
 """Distance of two lines of data without a table, and of more lines, in mm."""
 AIR = 1.0
@@ -210,7 +214,11 @@ def data_heading(
     data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
     found = data_of(drawing, view)
-    return in_table(drawing.paper, found, x, y) or in_lines(drawing, found, x, y, spare)
+    return (
+        in_table(drawing.paper, found, x, y)
+        or in_tables(drawing.paper, found, x, y, spare)
+        or in_lines(drawing, found, x, y, spare)
+    )
 
 
 def data_of(drawing: Drawing, view: str) -> Sequence[Datum]:
@@ -226,10 +234,7 @@ def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> l
     """A table of the values with the other data next to it; empty where there is no room."""
     valued = [datum for datum in found if datum.value]
     said = [datum.remark for datum in found if datum.remark]
-    widths = [
-        PAD + max(extent(markup, LETTERS)[0] for markup in (datum.name, datum.value))
-        for datum in valued
-    ]
+    widths = [*map(width_of, valued)]
     rows = [
         row_for([getattr(datum, part) for datum in valued]) for part in ("name", "value") if valued
     ]
@@ -250,6 +255,50 @@ def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> l
             for i, line in enumerate(lines)
         ),
     ]
+
+
+def in_tables(
+    paper: SheetPaper, found: Sequence[Datum], x: float, y: float, spare: Callable[[], float]
+) -> list[Mark]:
+    """Tables of the values one below another, the other data in lines below them.
+
+    Empty where the drawings do not leave their height.
+    """
+    valued = [datum for datum in found if datum.value]
+    width, top = paper.left[2] - x - 3, y - ABOVE
+    lines = spread([d.remark for d in found if d.remark], "; ", width, LETTERS, CLOSE)
+    widest = [*map(width_of, valued), *(extent(line, LETTERS)[0] for line in lines)]
+    if not valued or max(widest) > width:
+        return []
+    marks: list[Mark] = []
+    for block in blocks(valued, width):
+        widths = [*map(width_of, block)]
+        rows = [row_for([getattr(datum, part) for datum in block]) for part in ("name", "value")]
+        marks += ruled(block, widths, rows, x, top)
+        top += sum(height for height, _ in rows) + BETWEEN
+    marks += [
+        Text(x, top + ABOVE + CLOSE * i, line, "caption", LETTERS, name=NAME)
+        for i, line in enumerate(lines)
+    ]
+    beyond = height_beyond(paper, marks)
+    return marks if not beyond or beyond <= spare() else []
+
+
+def blocks(valued: Sequence[Datum], width: float) -> Iterable[Sequence[Datum]]:
+    """Data in as few rows of a width as hold them, about equally long."""
+    every = [*accumulate(map(width_of, valued), initial=0.0)]
+    count = ceil(every[-1] / width)
+    while True:
+        ends = [bisect_left(every, every[-1] * i / count) for i in range(count)]
+        ends.append(len(valued))
+        if all(every[end] - every[start] <= width for start, end in pairwise(ends)):
+            return (valued[start:end] for start, end in pairwise(ends))
+        count += 1
+
+
+def width_of(datum: Datum) -> float:
+    """The width of a column of the table, in mm."""
+    return PAD + max(extent(markup, LETTERS)[0] for markup in (datum.name, datum.value))
 
 
 def row_for(texts: Sequence[str]) -> tuple[float, float]:
@@ -618,13 +667,16 @@ def spare_above(drawing: Drawing) -> float:
 
     Guides and lines without end, which extend to the edges, are not counted.
     """
+    most = spare_height(drawing)
+    if most <= AIR:
+        return 0.0
     layout, paper = lay_out(drawing), drawing.paper
     both = [left_board(drawing, layout, "key")]
     both += [] if paper.is_parted else [right_board(drawing, layout, "key")]
     tops = (reach(mark)[1] for board in both for mark in board.marks if mark.name != HEADING)
     drawn = (top for top in tops if top > paper.fields[1] + CUT + 0.5)
     above = min(drawn, default=paper.foot) - CUT - paper.fields[1]
-    return max(min(spare_height(drawing), above), 0.0)
+    return max(min(most, above), 0.0)
 
 
 def title_line(
