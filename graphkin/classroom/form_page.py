@@ -124,7 +124,7 @@ def row(
     hint = why(item, words) if item.field in compute else ""
     worth = points.get(item.field)
     written = worth_words(worth, words) if worth is not None else ""
-    return what, escape(item.field), hint, item.unit, written
+    return what, escape(item.field), hint, words.spelled(item.unit), written
 
 
 def worth_words(points: Fraction, words: Words) -> str:

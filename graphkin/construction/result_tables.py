@@ -7,7 +7,14 @@ from collections.abc import Callable, Iterator, Sequence
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, segment_of, sense, way_of
 from graphkin.construction.core.program import plan_vector
-from graphkin.construction.core.quantities import FORCE, RATES, OnPaper, in_mm, names_asked
+from graphkin.construction.core.quantities import (
+    FORCE,
+    RATES,
+    OnPaper,
+    in_millimetres,
+    in_mm,
+    names_asked,
+)
 from graphkin.construction.core.relation import value_of
 from graphkin.drawing.columns import HEIGHT, ColumnTable, laid_out, on_sheets
 from graphkin.drawing.field import Rect
@@ -63,7 +70,7 @@ def unread(drawing: Drawing, named: Callable[[str], str] = str) -> Iterator[str]
         if size == 0:
             still[vector.symbol] = named(vector.symbol)
         elif length < LEGIBLE and drawing.symbol(vector.symbol) not in drawing.computed:
-            short[vector.symbol] = f"{named(vector.symbol)} ({in_mm(words, length)} mm)"
+            short[vector.symbol] = f"{named(vector.symbol)} ({in_millimetres(words, length)})"
     for link in getattr(ask, drawing.rate.target):
         if drawing.turning(link) == 0:
             still[link] = named(f"{drawing.rate.letter}_{link}")
@@ -139,11 +146,14 @@ def slide_sense(drawing: Drawing, block: str, value: float) -> str:
     return drawing.words(f"calculation.{key}", guide=way_of(drawing, block))
 
 
-def tables(drawing: Drawing, rect: Rect, *, empty: bool) -> list[Mark]:
-    """The marks of all tables: vectors in one or more blocks, then angular values, then blocks."""
+def tables(drawing: Drawing, rect: Rect, *, empty: bool, spare: float = 0.0) -> list[Mark]:
+    """The marks of all tables: vectors in one or more blocks, then angular values, then blocks.
+
+    ``spare`` is a height in mm that they leave free above their notes.
+    """
     some = column_tables(drawing, empty=empty)
     note = reasons(drawing, [row for table in some for row in table.rows], rect)
-    low = rect[3] - LEADING * len(note)
+    low = rect[3] - LEADING * len(note) - spare
     corner = drawing.paper.code if empty else 0.0
     return [*note, *laid_out(some, (*rect[:3], low), by_hand=empty, corner=corner)]
 

@@ -149,7 +149,7 @@ def frame_of(
     """
     _, top, right, low = axes.rect
     words = motion.found.shown.alone.words
-    yield from axis_lines(axes, name, f"*{name}*, {escape(unit).replace('²', '^2')}")
+    yield from axis_lines(axes, name, f"*{name}*, {escape(words.spelled(unit)).replace('²', '^2')}")
     at = right + ARROW + 1, axes.zero + 0.9
     yield Text(*at, f"*{u_symbol(motion)}*", "caption", LETTERS, name="axis")
     names = position_names(motion.found, motion.at)
@@ -338,7 +338,7 @@ def derive(
     return Derived(method.steps(points, distance, closed=closed), own, distance, name, method)
 
 
-def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
+def construction(words: Words, before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     """The chords in the first diagram, and in the second the pole, its rays and the points."""
     axes, name = found.axes, found.name
     behind = found.distance < 0
@@ -360,7 +360,7 @@ def construction(before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     yield Text(
         pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
     )
-    caption = f"*H* = {abs(found.distance):g} mm"
+    caption = f"*H* = {abs(found.distance):g} {words.unit('mm')}"
     if abs(found.distance) > extent(caption, LETTERS)[0] + 3:
         at = (pole[0] + foot) / 2, axes.zero + 3.2
         yield from cleared(
@@ -398,8 +398,8 @@ def differentiation_page(motion: FollowerMotion, method: RateMethod, number: str
     marks: list[Mark] = [
         *heading(motion.found, drawing, words("sheet.differentiation")),
         *field_caption(motion, method.signs),
-        *construction(first, rate, "velocity"),
-        *construction(rate.axes, again, "acceleration"),
+        *construction(words, first, rate, "velocity"),
+        *construction(words, rate.axes, again, "acceleration"),
         *frame_of(motion, first, kinds[0], *units[0]),
         *frame_of(motion, rate.axes, kinds[1], *units[1], is_zero=is_zero(motion, 1)),
         *frame_of(motion, again.axes, kinds[2], *units[2], is_zero=is_zero(motion, 2)),
@@ -463,7 +463,7 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
     marks: list[Mark] = [
         *heading(motion.found, drawing, words("sheet.integration")),
         *field_caption(motion, "diagrams.strings"),
-        *levels(first, found),
+        *levels(words, first, found),
         *frame_of(motion, first, kinds[1], *units[1]),
         *frame_of(motion, second, kinds[0], *units[0]),
         *curve(first, smooth(points), "velocity", kinds[1]),
@@ -512,7 +512,7 @@ def string_scale(
     return sign * distance, Axes(last.rect, lowered, last.wide, factor, last.start)
 
 
-def levels(first: Axes, found: Derived) -> Iterator[Mark]:
+def levels(words: Words, first: Axes, found: Derived) -> Iterator[Mark]:
     """The level of each interval, its ray to the pole, and the string parallel to the ray."""
     behind = found.distance < 0
     foot = first.rect[2] if behind else first.rect[0]
@@ -532,7 +532,7 @@ def levels(first: Axes, found: Derived) -> Iterator[Mark]:
     aside = 2.0 if behind else -2.0
     anchor: Anchor = "start" if behind else "end"
     yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
-    caption = f"*H* = {abs(found.distance):g} mm"
+    caption = f"*H* = {abs(found.distance):g} {words.unit('mm')}"
     if abs(found.distance) > extent(caption, LETTERS)[0] + 3:
         at = (pole[0] + foot) / 2, first.zero + 3.2
         yield from cleared(Text(*at, caption, "caption", LETTERS, "middle", "pole distance"))
@@ -550,12 +550,13 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
     count = len(found.steps)
     interval = first.wide * float(motion.at[1] - motion.at[0])
     hand = mark() * sqrt(count) * interval / abs(found.distance) / found.axes.high
+    per_mm = words.unit(f"{rates_units(motion)[0]}/mm")
     rule = f"*k*_{{*{s}*}} = *k*_{{*{v}*}}·*k*_{{*{u_symbol(motion)}*}}·*H*{pace}"
     said = [
         words("diagrams.levels", v=v),
         words("diagrams.polygon", s=s),
-        f"{rule} = {figure(drawing, 1 / found.axes.high)} {unit}/mm; "
-        f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {rates_units(motion)[0]}/mm.",
+        f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}; "
+        f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
         words(
             "diagrams.summed",
             s=s,
@@ -636,8 +637,11 @@ def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Deriv
     s, v, a = motion.kinds
     sweep = motion.found.cycle.sweep
     k_u = sweep.per_unit / first.wide
-    unit_u = {"turn": "rad/mm", "slide": "m/mm", "time": "s/mm"}.get(sweep.what, "m/mm")
-    units = [f"{unit}/mm" for unit in (("rad" if motion.is_link else "m"), *rates_units(motion))]
+    unit_u = words.unit({"turn": "rad/mm", "slide": "m/mm", "time": "s/mm"}.get(sweep.what, "m/mm"))
+    units = [
+        words.unit(f"{unit}/mm")
+        for unit in (("rad" if motion.is_link else "m"), *rates_units(motion))
+    ]
     pace = "" if sweep.what == "time" else ("*ω*·" if sweep.what == "turn" else "*v*·")
     u = u_symbol(motion)
     return [
@@ -837,8 +841,8 @@ def force_courses(found: PositionSet, at: Reals, fine: Reals) -> list[Asked]:
         size = np.iscomplexobj(between)
         letter = found.shown.alone.symbol(target[1])
         values = (np.abs(here), np.abs(between)) if size else (here, between)
-        text, look = (f"|{letter}|", "reaction") if size else (letter, "balance")
-        made.append(Asked(text, quantity.unit, target[1], look, *values))
+        text = f"|{letter}|" if size else letter
+        made.append(Asked(text, quantity.unit, target[1], "reaction", *values))
     return made
 
 
@@ -907,9 +911,10 @@ def small_diagram(
     wide = (right - left) / float(at[-1] - at[0])
     zero = (top + low) / 2 + (highest + least) / 2 * high
     axes = Axes(rect, zero, wide, high, float(at[0]))
-    unit = each.unit.replace("²", "^2").replace("³", "^3")
+    words = found.shown.alone.words
+    unit = words.spelled(each.unit.replace("²", "^2").replace("³", "^3"))
     yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
-    yield from numbers_along(found.shown.alone.words, axes, each.name, 1.0, 4)
+    yield from numbers_along(words, axes, each.name, 1.0, 4)
     names = position_names(found, at)
     for name, u in zip(names, at, strict=True):
         x, _ = axes.on_page(axes.place(float(u), 0.0))

@@ -101,7 +101,8 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
 def caption_scale(drawing: Drawing) -> str:
     """The entry of the title block for the scale: that of the plan."""
     unit = "(m/s)/mm" if drawing.kind == "velocity" else "(m/s^2)/mm"
-    return f"{figure(drawing, scale_of(drawing, drawing.plane) / 1000)} {unit}"
+    k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
+    return f"{k} {drawing.words.unit(unit)}"
 
 
 def poles_said(marks: Sequence[Mark], *, one: bool) -> str:
@@ -298,7 +299,8 @@ def own_scale(drawing: Drawing, coarser: float) -> str:
     """The scale factor of a plan that is drawn smaller than the others."""
     letter, unit = ("v", "m/s") if drawing.kind == "velocity" else ("a", "m/s^2")
     k = figure(drawing, coarser * scale_of(drawing, drawing.plane) / 1000)
-    return f"*k*_{letter} = {k} ({unit})/mm"
+    own = drawing.words.unit(f"({unit})/mm")
+    return f"*k*_{letter} = {k} {own}"
 
 
 def number_of(
@@ -306,8 +308,8 @@ def number_of(
 ) -> Iterator[Mark]:
     """The number of a plan's position, with the place of the driver, and its own scale."""
     sweep = found.cycle.sweep
-    unit = "°" if sweep.what == "turn" else " " + (sweep.original.units["length"])
-    unit = " s" if sweep.driver is None else unit
+    own = "s" if sweep.driver is None else sweep.original.units["length"]
+    unit = "°" if sweep.what == "turn" else f" {found.shown.alone.words.spelled(own)}"
     yield Text(rect[0] + 3, rect[1] + 6, each.name, "caption", 3.5, name="number")
     beside = rect[0] + 5 + extent(each.name, 3.5)[0]
     yield Text(beside, rect[1] + 6, f"{place}{unit}", "caption", 2.5, name="place")

@@ -155,7 +155,8 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
     paper = drawing.paper
     if paper.is_parted:
         marks = [mark for mark in marks if reach(mark)[2] < paper.across]
-    given = data(own, solved=False, laws=True)
+    by_time = found.cycle.sweep.driver is None
+    given = data(own, solved=not by_time, laws=by_time)
     try:
         return [*marks, *(in_table(paper, given, x, y) or in_lines(own, given, x, y, float))]
     except PageError:
@@ -204,7 +205,7 @@ def caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
     """The caption of the field: the scale, and what is drawn how."""
     words = drawing.words
     count = len(found.numbered) if is_whole(found.cycle) else len(found.numbered) - 1
-    scale, kL = words.decimal(drawing.scales.words), f"{length_scale(drawing)} m/mm"
+    scale, kL = words.decimal(drawing.scales.words), f"{length_scale(drawing)} {words.unit('m/mm')}"
     said = words("page.mechanism_heading", scale=scale, kL=kL)
     more = words("positions.strong", number=found.shown.name, count=count)
     text = f"{said};  {more}"
@@ -452,7 +453,7 @@ def draw_stroke(board: FieldContent, found: PositionSet, field: Field) -> None:
         draw_swing(board, travel, [field(drawing.positions[p]) for p in travel.line], name, text)
     elif ends := block_ends(board, found, field):
         size = words.significant(drawing.length(travel.extent), 4)
-        text = f"*H* = {size} {drawing.scene.units['length']}"
+        text = f"*H* = {size} {drawing.words.spelled(drawing.scene.units['length'])}"
         board.marks += dimension(*ends, name)
         board.labels.append(Label(text, "", ends[2:], 2.5, name, priority=3))
 

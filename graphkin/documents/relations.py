@@ -500,13 +500,17 @@ def blank_place(drawing: Drawing) -> tuple[str, str]:
     words, pivots = drawing.words, drawing.scene.frame.points
     pair = words.place(ROOM, ROOM)
     if not pivots:
-        return f"{pair} {drawing.scene.units['length']}", f"({words('calculation.axes')})"
-    return f"{pair} mm", f"({words('calculation.from_pivot', pivot=symbol(pivots[0]))})"
+        unit = words.spelled(drawing.scene.units["length"])
+        return f"{pair} {unit}", f"({words('calculation.axes')})"
+    return (
+        f"{pair} {words.spelled('mm')}",
+        f"({words('calculation.from_pivot', pivot=symbol(pivots[0]))})",
+    )
 
 
 def of_place(drawing: Drawing, name: str, point: complex) -> Relation:
     """A place on paper from the first fixed pivot, and in the axes of the frame."""
-    words, unit = drawing.words, drawing.scene.units["length"]
+    words, unit = drawing.words, drawing.words.spelled(drawing.scene.units["length"])
     away = (0.0 if abs(part) < NOISE * drawing.reach else part for part in (point.real, point.imag))
     x, y = (answer(drawing, drawing.length(part)) for part in away)
     pivots = drawing.scene.frame.points

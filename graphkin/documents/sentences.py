@@ -362,7 +362,7 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
         remarks.append(Datum(words("page.centre_of_mass", **fields)))
     if forces.gravity is not None:
         pair = (number_of(scene, words, each) for each in forces.gravity)
-        found.append(Datum(name="*g*", value=f"{words.place(*pair)} m/s^2"))
+        found.append(Datum(name="*g*", value=f"{words.place(*pair)} {words.spelled('m/s^2')}"))
     for load, name in zip(forces.loads, load_names(forces.loads), strict=True):
         if load.force is not None:
             found += force_datum(drawing, load, name)
@@ -393,7 +393,7 @@ def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
     assert force is not None
     if not isinstance(force, Directed):
         x, y = (number_of(scene, words, each) for each in force)
-        yield valued(f"P_{name}", f"{words.place(x, y)} N")
+        yield valued(f"P_{name}", f"{words.place(x, y)} {words.spelled('N')}")
         return
     size = given_size(drawing, force.size, f"P_{name}", "N")
     if not force.sense:
@@ -409,7 +409,7 @@ def given_size(drawing: Drawing, size: Size, name: str, unit: str) -> str:
     if not isinstance(size, ByDriver):
         return quantity_text(drawing.scene, drawing.words, size)
     assert isinstance(drawing, ForceDrawing)
-    return f"{answer(drawing, drawing.by_table[name])} {unit}"
+    return f"{answer(drawing, drawing.by_table[name])} {drawing.words.unit(unit)}"
 
 
 def valued(name: str, value: str) -> Datum:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from enum import Enum
 from functools import partial
-from itertools import islice
+from itertools import accumulate, islice, pairwise
+from math import ceil
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -188,6 +190,8 @@ BESIDE = {1: (ROW, 2.75), 2: (ROW, 0.5), 3: (3.6, -0.2)}
 The offset is from the baseline of the first line: one line is centred on the table, two are level
 with its rows, three are as high as the table.
 """
+BETWEEN = 1.2
+"""Distance of tables of data one below another, and of the lines below them, in mm."""
 SPACED, CLOSE = 4.2, 3.85
 """Distance of two lines of data without a table, and of more lines, in mm."""
 AIR = 1.0
@@ -210,7 +214,11 @@ def data_heading(
     data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
     found = data_of(drawing, view)
-    return in_table(drawing.paper, found, x, y) or in_lines(drawing, found, x, y, spare)
+    return (
+        in_table(drawing.paper, found, x, y)
+        or in_tables(drawing.paper, found, x, y, spare)
+        or in_lines(drawing, found, x, y, spare)
+    )
 
 
 def data_of(drawing: Drawing, view: str) -> Sequence[Datum]:
@@ -226,10 +234,7 @@ def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> l
     """A table of the values with the other data next to it; empty where there is no room."""
     valued = [datum for datum in found if datum.value]
     said = [datum.remark for datum in found if datum.remark]
-    widths = [
-        PAD + max(extent(markup, LETTERS)[0] for markup in (datum.name, datum.value))
-        for datum in valued
-    ]
+    widths = [*map(width_of, valued)]
     rows = [
         row_for([getattr(datum, part) for datum in valued]) for part in ("name", "value") if valued
     ]
@@ -250,6 +255,50 @@ def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> l
             for i, line in enumerate(lines)
         ),
     ]
+
+
+def in_tables(
+    paper: SheetPaper, found: Sequence[Datum], x: float, y: float, spare: Callable[[], float]
+) -> list[Mark]:
+    """Tables of the values one below another, the other data in lines below them.
+
+    Empty where the drawings do not leave their height.
+    """
+    valued = [datum for datum in found if datum.value]
+    width, top = paper.left[2] - x - 3, y - ABOVE
+    lines = spread([d.remark for d in found if d.remark], "; ", width, LETTERS, CLOSE)
+    widest = [*map(width_of, valued), *(extent(line, LETTERS)[0] for line in lines)]
+    if not valued or max(widest) > width:
+        return []
+    marks: list[Mark] = []
+    for block in blocks(valued, width):
+        widths = [*map(width_of, block)]
+        rows = [row_for([getattr(datum, part) for datum in block]) for part in ("name", "value")]
+        marks += ruled(block, widths, rows, x, top)
+        top += sum(height for height, _ in rows) + BETWEEN
+    marks += [
+        Text(x, top + ABOVE + CLOSE * i, line, "caption", LETTERS, name=NAME)
+        for i, line in enumerate(lines)
+    ]
+    beyond = height_beyond(paper, marks)
+    return marks if not beyond or beyond <= spare() else []
+
+
+def blocks(valued: Sequence[Datum], width: float) -> Iterable[Sequence[Datum]]:
+    """Data in as few rows of a width as hold them, about equally long."""
+    every = [*accumulate(map(width_of, valued), initial=0.0)]
+    count = ceil(every[-1] / width)
+    while True:
+        ends = [bisect_left(every, every[-1] * i / count) for i in range(count)]
+        ends.append(len(valued))
+        if all(every[end] - every[start] <= width for start, end in pairwise(ends)):
+            return (valued[start:end] for start, end in pairwise(ends))
+        count += 1
+
+
+def width_of(datum: Datum) -> float:
+    """The width of a column of the table, in mm."""
+    return PAD + max(extent(markup, LETTERS)[0] for markup in (datum.name, datum.value))
 
 
 def row_for(texts: Sequence[str]) -> tuple[float, float]:
@@ -618,13 +667,16 @@ def spare_above(drawing: Drawing) -> float:
 
     Guides and lines without end, which extend to the edges, are not counted.
     """
+    most = spare_height(drawing)
+    if most <= AIR:
+        return 0.0
     layout, paper = lay_out(drawing), drawing.paper
     both = [left_board(drawing, layout, "key")]
     both += [] if paper.is_parted else [right_board(drawing, layout, "key")]
     tops = (reach(mark)[1] for board in both for mark in board.marks if mark.name != HEADING)
     drawn = (top for top in tops if top > paper.fields[1] + CUT + 0.5)
     above = min(drawn, default=paper.foot) - CUT - paper.fields[1]
-    return max(min(spare_height(drawing), above), 0.0)
+    return max(min(most, above), 0.0)
 
 
 def title_line(
@@ -813,13 +865,10 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     checks = [] if view == "task" else checked_lines(drawing, width)
     first = low + 0.4 - CLOSE * (len(checks) - 1)
     if view == "key":
-        place = drawing, left, top + 10.5, width, first - 3.9
         try:
-            listing = listed(*place)
+            listing = listed(drawing, left, top + 10.5, width, first - 3.9)
         except PageError:
-            column = left, top + 10.5, min(left + width, paper.marked[0]), first - 3.9
-            free = below_tables(paper, found)
-            listing, said = around_tables(drawing, column, free, first_part(*place))
+            listing, said, found = beside_tables(drawing, (left, top + 10.5, first - 3.9))
             if said < len(sentences(drawing)):
                 moved.add(Moved.CONSTRUCTION)
         marks = [construction_head(drawing, left, top + 4.5), *listing]
@@ -836,21 +885,53 @@ def below(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], int]:
     return [*marks, *flattest_line(drawing, left + extent(checks[-1], LETTERS)[0])], moved, said
 
 
+SPARE = (0.0, *range(5, 31, 5))
+"""Heights in mm below the tables of a key that are tried where sentences go on there."""
+
+
+def beside_tables(
+    drawing: Drawing, column: tuple[float, float, float]
+) -> tuple[list[Mark], int, list[Mark]]:
+    """The sentences of a long construction, how many of them fit, and the tables beside them.
+
+    ``column`` has the left end of the sentences, their first baseline and their lowest one. The
+    tables are as low as the sentences that go on below them need.
+    """
+    paper, (left, top, low) = drawing.paper, column
+    best: tuple[list[Mark], int, list[Mark]] = ([], -1, [])
+    for spare in SPARE:
+        found, moved, wider = placed_tables(drawing, "key", spare)
+        if spare and moved:
+            break
+        width = paper.writing - wider - left - 2
+        place = left, top, min(left + width, paper.marked[0]), low
+        part = first_part(drawing, left, top, width, low)
+        listing, said = around_tables(drawing, place, below_tables(paper, found), part)
+        if said > best[1]:
+            best = listing, said, found
+        if said == len(sentences(drawing)):
+            break
+    return best
+
+
 WIDER = (0.0, 4.0, 8.0, 12.0, 16.0, 20.0, 24.0, 28.0)
 """Extra widths of the tables beside sentences that are tried, in mm."""
 
 
-def placed_tables(drawing: Drawing, view: str) -> tuple[list[Mark], set[Moved], float]:
+def placed_tables(
+    drawing: Drawing, view: str, spare: float = 0.0
+) -> tuple[list[Mark], set[Moved], float]:
     """The tables, the part that does not fit, and how much wider than usual they are, in mm.
 
-    Tables beside the sentences of a key take some of their width where they need it.
+    Tables beside the sentences of a key take some of their width where they need it, and leave a
+    ``spare`` height free.
     """
     paper, task = drawing.paper, view == "task"
     left, *others = paper.empty_tables if task else paper.tables
     where = paper.tables[0], paper.tables[1] + 4.5
     for wider in WIDER[: 1 if task or paper.is_leaf else None]:
         rect: Rect = (left - wider, others[0], others[1], others[2])
-        made = partial(tables, drawing, rect, empty=task)
+        made = partial(tables, drawing, rect, empty=task, spare=spare)
         found, moved = with_room(drawing, Moved.TABLES, made, *where)
         if not moved:
             return found, moved, wider

@@ -32,6 +32,7 @@ LETTERS = "ABCDEFGHJKLM"  # without I and O
 LEADING, CLOSER = 1.7, 1.5  # line spacing in heights of capitals, and that of a header
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
 LABEL, UNDER = 3.4, 1.7  # a cell's baselines: label below the top, value above the bottom
+DESCENT = 0.45  # the same of large values, in their heights: p and g stay clear of the line
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)  # ISO 3098
 
 
@@ -327,7 +328,7 @@ def cell(name: str, rect: Rect, most: float, label: str, value: str) -> list[Mar
         marks.append(Text(x, top + LABEL, line, "title", height))
     if value.strip():
         lines, height = fitting(name, value, *room_in(rect), most)
-        low = bottom - UNDER
+        low = bottom - max(UNDER, DESCENT * height)
         for i, line in enumerate(lines):
             y = low - (len(lines) - 1 - i) * LEADING * height
             marks.append(Text(x, y, line, "title", height, name=name))

@@ -129,13 +129,21 @@ PRIMES = "′″‴"
 STACKED = 2
 """Length of the longest index above which an exponent may be placed."""
 TOKEN = r"(?s)[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|."
-UNITS = r"(?:mm|cm|m|in|ft|s|rad|deg|rev/min|rot/min)\b|\((?:mm|cm|m|in|ft)/s"
+UNITS = (
+    r"(?:mm|cm|m|in|ft|s|rad|deg|rev/min|rot/min|мм|см|м|с|рад|об/мин)\b"
+    r"|\((?:(?:mm|cm|m|in|ft)/s|(?:мм|см|м)/с)"
+)
 NUMBERED = (
     *("link", "links", "wheel", "wheels", "gear", "gears", "guide", "guides"),
     *("plate", "rack", "track", "cam"),
     *("elementul", "elementului", "elementele", "elementelor", "roata", "roții", "roțile"),
     *("ghidajul", "ghidajului", "cremaliera", "cama"),
     *("membro", "membri", "ruota", "ruote", "dentata", "guida", "piastra", "dentiera", "camma"),
+    *("Glied", "Glieder", "Rad", "Räder", "Zahnrad", "Führung", "Gleitstein", "Kurvenscheibe"),
+    *("membre", "membres", "roue", "roues", "dentée", "coulisseau", "came", "plaque"),
+    *("eslabón", "eslabones", "rueda", "ruedas", "guía", "deslizadera", "leva", "placa"),
+    *("звено", "звена", "звене", "звенья", "звеньев", "колесо", "колеса", "колесу", "колесом"),
+    *("направляющая", "направляющей", "ползун", "ползуна", "кулачок", "кулачка"),
 )
 """Words, in all languages, that stay in one line with the number or single letter after them."""
 AFTER_WORD = "".join(rf"(?<!\b{word} )" for word in NUMBERED)

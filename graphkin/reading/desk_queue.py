@@ -275,7 +275,9 @@ def wrong(graded: Graded) -> Iterator[EarnedMark]:
 def called(mark: EarnedMark, words: Words) -> str:
     """A field's symbol and unit, or that it is a sense, as plain text."""
     sense = words("table.sense") if mark.item.what == "sense" else ""
-    return ", ".join(filter(None, (plain(mark.item.symbol), mark.item.unit or sense)))
+    return ", ".join(
+        filter(None, (plain(mark.item.symbol), words.spelled(mark.item.unit) or sense))
+    )
 
 
 Wrong = tuple[str, EarnedMark]

@@ -330,7 +330,8 @@ HOUSE_KEYS = (
         "results",
         results,
         f"the unit of lengths in results: {quoted(RESULTS)}; speeds are per s. By default inches"
-        " for a scene in inches, feet for one in feet, else metres",
+        " for a scene in inches, feet for one in feet, else metres. Forces are in newtons, so a"
+        " scene with masses or loads has metres",
         '"scene"',
         "results",
     ),
@@ -338,7 +339,8 @@ HOUSE_KEYS = (
         "scales",
         "steps",
         steps,
-        "the first digits n of the scales 1:n and n:1 among which the program chooses",
+        "the first digits n of the scales 1:n and n:1 among which the program chooses. By default"
+        " those of ISO 5455 first, and 1, 2, 4 and 8 for a scene in inches or feet",
         "[1, 2, 5]",
         "steps",
     ),

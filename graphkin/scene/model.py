@@ -618,6 +618,8 @@ def quantities_within(part: object) -> Iterator[Quantity]:
 
 IMPERIAL = ("in", "ft")
 """The units of length whose results are printed in them, unless others are stated."""
+HALVED = (1.0, 2.0, 4.0, 8.0)
+"""The first digits of the scales of drawings in inches or feet: full, half, quarter, eighth."""
 LENGTHY = ("frame", "links", "drivers", "near")
 """The parts of a scene that have lengths."""
 

@@ -15,6 +15,8 @@ from graphkin.scene.link_points import ends_of
 from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
+    HALVED,
+    IMPERIAL,
     POINTS_ASKED,
     Ask,
     Branch,
@@ -240,7 +242,7 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
         method=table.choice("method", METHODS, METHODS[0]),
         plan=table.choice("plan", PLANS, PLANS[0]),
         signs=signs,
-        steps=house.steps,
+        steps=house.steps or (HALVED if measures.units["length"] in IMPERIAL else ()),
         paper=table.choice("paper", tuple(PAPERS), house.paper),
         frame=table.choice("frame", FRAMES, usual),
     )

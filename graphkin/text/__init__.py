@@ -17,8 +17,26 @@ ENGLISH = "en"
 MINUS = "\N{MINUS SIGN}"
 METRE = r"(?<![\w*{'’])m(?=/s|/mm|$)"
 """A metre in a unit: m, m/s, (m/s²)/mm, m/mm."""
-RATE = r"(?<![\w*{'’])m(?=/s)"
-"""A metre in a unit in a sentence."""
+RATE = r"(?<![\w*{{'’]){m}(?=/{s})"
+"""A metre in a unit in a sentence, with the letters of the language."""
+UNIT_LETTERS: Mapping[str, Mapping[str, str]] = {
+    "ru": {
+        "mm": "мм",
+        "cm": "см",
+        "m": "м",
+        "in": "дюйм",
+        "ft": "фут",
+        "rad": "рад",
+        "deg": "град",
+        "rev": "об",
+        "min": "мин",
+        "s": "с",
+        "N": "Н",
+        "kN": "кН",
+        "kg": "кг",
+    }
+}
+"""How languages write the parts of units: GOST 8.417-2002 has Cyrillic letters."""
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 """The Italian words for "to" and "and" before a word that begins with the same vowel."""
@@ -60,11 +78,20 @@ class Words:
         if self.signs is USUAL and self.length == "m":
             return found
         signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
-        return Sentences({key: re.sub(RATE, self.length, said) for key, said in signed.items()})
+        rate = RATE.format(m=self.spelled("m"), s=self.spelled("s"))
+        length = self.spelled(self.length)
+        return Sentences({key: re.sub(rate, length, said) for key, said in signed.items()})
 
     def unit(self, unit: str) -> str:
         """A unit of results, whose metres are these lengths: in/s for m/s."""
-        return unit if self.length == "m" else re.sub(METRE, self.length, unit)
+        return self.spelled(unit if self.length == "m" else re.sub(METRE, self.length, unit))
+
+    def spelled(self, unit: str) -> str:
+        """A unit as it is in the letters of the language: мм/с for mm/s in Russian."""
+        letters = UNIT_LETTERS.get(self.language)
+        if letters is None:
+            return unit
+        return re.sub("[A-Za-z]+", lambda part: letters.get(part[0], part[0]), unit)
 
     def __call__(self, key: str, **fields: object) -> Markup:
         """The sentence under a key, with its fields filled in. Raises KeyError if it is missing."""

@@ -152,7 +152,7 @@ class PageDriver(Struct, frozen=True):
 
     def unit_in(self, words: Words) -> str:
         """Its unit as printed after a number."""
-        return words("unit.deg") if self.unit == "deg" else f" {self.unit}"
+        return words("unit.deg") if self.unit == "deg" else f" {words.spelled(self.unit)}"
 
     @property
     def pins(self) -> tuple[str, ...]:

@@ -72,7 +72,10 @@ def meanings(words: Words, sheets: Sequence[ScreenSheet]) -> Iterator[tuple[str,
     for sheet in sheets:
         drawing = sheet.drawing
         if drawing.kind == FORCE:
-            yield "*k*_F", words("legend.scale", plan=words("sheet.force"), unit=drawing.unit)
+            yield (
+                "*k*_F",
+                words("legend.scale", plan=words("sheet.force"), unit=words.unit(drawing.unit)),
+            )
             continue
         *signs, turning = PLANS[drawing.kind]
         scale, rate = map(drawing.in_signs, signs)
@@ -142,7 +145,7 @@ class Slider(Struct, frozen=True):
 
     def place(self, words: Words, at: float | None) -> str:
         """A position of the driver in words, or its unit alone."""
-        unit = words("unit.deg") if self.unit == "deg" else f" {self.unit}"
+        unit = words("unit.deg") if self.unit == "deg" else f" {words.spelled(self.unit)}"
         return unit if at is None else words.fixed(at, self.digits) + unit
 
     def limits(self, words: Words) -> str:

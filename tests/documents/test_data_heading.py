@@ -14,9 +14,16 @@ from graphkin.documents.sheet import (
     title_line,
     writing,
 )
-from graphkin.documents.sheet_documents import continued_lines, drawn_sheets
+from graphkin.documents.sheet_documents import (
+    continued_lines,
+    drawings_of,
+    drawn_sheets,
+    proved,
+)
 from graphkin.drawing.field import A3, ABOVE
 from graphkin.drawing.marks import LineMark, Text, reach
+from graphkin.mechanism import load
+from graphkin.text import words
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
 from tests.documents.sheet_tools import drawings
@@ -77,7 +84,11 @@ def test_long_data_stand_on_the_sheet_where_the_drawings_leave_room_or_on_the_ne
         marks = [mark for page in drawn_sheets([drawing], view)[0].pages for mark in page.marks]
         lines = [mark for mark in marks if isinstance(mark, Text) and mark.name == NAME]
         said = " ".join(mark.markup for mark in lines)
-        assert all(datum.said in said for datum in data(drawing, solved=view == "key"))
+        cells = {mark.markup for mark in lines if mark.cls == "table"}
+        for datum in data(drawing, solved=view == "key"):
+            assert datum.said in said or (
+                {datum.name, datum.value} <= cells and datum.remark in said
+            )
         assert all(mark.height == 2.5 for mark in lines)
         assert max(reach(mark)[2] for mark in lines) < A3.fields[2]
 
@@ -103,3 +114,18 @@ def test_gears_have_their_teeth_and_their_module_in_the_table(name, teeth):
     columns = [(m.markup, below[m.x]) for m in cells if m.x in below and m.markup != below[m.x]]
     assert [int(value) for head, value in columns if head.startswith("*z*_")] == [*teeth]
     assert sum(head == "*m*" for head, _ in columns) == 1
+
+
+@pytest.mark.parametrize("name", ["plates-coupled", "shaper-forces", "plank-axle"])
+def test_long_data_are_tables_where_the_drawings_leave_their_height(name):
+    mechanism = load(name)
+    last = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))[1]
+    marks = data_heading(last, "key", 24, 22.4, lambda: spare_above(last))
+    cells = [mark for mark in marks if isinstance(mark, Text) and mark.cls == "table"]
+    rows = sorted({round(cell.y, 3) for cell in cells})
+    ends = [max(reach(cell)[2] for cell in cells if round(cell.y, 3) == row) for row in rows]
+    assert len(rows) % 2 == 0
+    assert max(ends) - min(ends) < 60  # rows one below another are about equally long
+    assert max(ends) < last.paper.left[2]
+    lines = [mark.y for mark in marks if isinstance(mark, Text) and mark.cls == "caption"]
+    assert min(lines) > rows[-1] + 3

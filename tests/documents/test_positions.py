@@ -326,3 +326,13 @@ def test_data_without_room_are_said_to_be_elsewhere():
     """Three cylinders and eleven links need four lines; the sheet has room for two."""
     page = pages(load(SCENES / "documents/excavator-with-bucket.toml"))["mechanism"]
     assert "the data are on the sheets of a single position" in said(page)
+
+
+@pytest.mark.parametrize("view", ["positions", "diagrams"])
+def test_data_are_the_numbers_of_the_strong_position(view: str):
+    """They are results: 44° in the place of the rule (30 + 2·n)° from which a student has it."""
+    mechanism = load("pump", n=7)
+    for part in hand_out(mechanism, view, "en"):
+        data = [m.markup for m in part.pages[0].marks if isinstance(m, Text) and m.name == "data"]
+        assert "44°" in data
+        assert not any("*n*)" in each for each in data)

@@ -27,6 +27,8 @@ SCENES = (
     *("pump", "shaper", "cam-rocker", "cam-plate", "gears-planet", "gears-rack", "plates-ring"),
     *("belts-crossed", "excavator-relative", "roller", "platform-six", "geneva-wheel"),
 )
+UNMARKED = [name for name in SCENES if name != "plates-ring"]
+"""Scenes without a point whose image is called m."""
 INCHES = """
 graphkin = 1
 title = "Slider-crank"
@@ -52,8 +54,22 @@ acceleration = ["B"]
 omega = [2]
 epsilon = [2]
 """
-METRES = re.compile(r"(?<![\w*])m(?=/s|/mm)|= [\d.,·]+ m\b")
+METRES = re.compile(r"(?<![\w*])[mм](?=/[sсmм])|= [\d.,·]+ [mм]\b")
 """Metres as a unit in a text."""
+
+
+LATIN = re.compile(r"(?<=[\d)] )\(?(mm|cm|m|rad|N|N·m|kg|kg·m²|N/m)\b|(?<![\w{])(m/s|rad/s|N/mm)")
+"""Latin letters of a unit after a number, or in a ratio."""
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+@pytest.mark.parametrize("name", [*UNMARKED, "pump-forces", "shaper-forces", "gears-forces"])
+def test_units_of_russian_pages_are_in_cyrillic_letters(name, view):
+    """GOST 8.417-2002; names of points and links stay in Latin letters."""
+    for part in hand_out(load(name), view, "ru"):
+        said = [plain(m.markup) for page in part.pages for m in page.marks if isinstance(m, Text)]
+        assert not [each for each in said if LATIN.search(each)]
+        assert any("мм" in each for each in said)
 
 
 def of(name: str, results: str) -> Mechanism:
@@ -105,7 +121,8 @@ def test_the_drawing_is_the_same_in_inches(name: str) -> None:
 def test_no_metre_is_left_on_paper(view: str, language: str) -> None:
     found = texts(Mechanism(read_text(INCHES, "x")), view, language)
     assert not [each for each in found if METRES.search(each)]
-    assert any("in/s" in each for each in found)
+    own = words(language).spelled("in/s")
+    assert any(own in each for each in found)
 
 
 def test_relations_follow_from_their_figures_in_inches() -> None:
@@ -201,3 +218,11 @@ def test_results_of_a_scene_with_masses_are_in_metres(unit, is_read):
         return
     with pytest.raises(SceneError, match=f"units.results: {unit}: .* in metres"):
         read_text(stated, "x")
+
+
+@pytest.mark.parametrize(("size", "written"), [(1, "1:1"), (2, "1:2"), (4, "1:4"), (6, "1:8")])
+def test_scales_of_inches_are_full_half_quarter_and_eighth(size: int, written: str) -> None:
+    longer = INCHES.replace("O-A = 2", f"O-A = {2 * size}").replace("A-B = 6", f"A-B = {6 * size}")
+    (first, *_) = hand_out(Mechanism(read_text(longer, "x")), "key", "en")
+    marks = [m for m in first.pages[0].marks if isinstance(m, Text) and m.name == "scale"]
+    assert written in [mark.markup for mark in marks]

@@ -1,9 +1,9 @@
 import pytest
 
-from graphkin.drawing.field import A4_AREA
+from graphkin.drawing.field import A4_AREA, paper_of
 from graphkin.drawing.frame import TitleBlock, page_frame, sheet_frame
-from graphkin.drawing.marks import Text, reach
-from graphkin.drawing.richtext import plain
+from graphkin.drawing.marks import LineMark, Text, reach
+from graphkin.drawing.richtext import extent, plain
 from graphkin.text.errors import PageError
 
 FULL = TitleBlock(
@@ -31,6 +31,17 @@ def test_no_two_words_of_the_title_block_touch():
     for i, a in enumerate(boxes):
         for b in boxes[i + 1 :]:
             assert a[2] <= b[0] or b[2] <= a[0] or a[3] <= b[1] or b[3] <= a[1]
+
+
+def test_a_title_with_descenders_is_clear_of_the_line_below_it():
+    for papers in ("A3", "ANSI B"):
+        page = paper_of(papers, "ISO")
+        block = TitleBlock(title="Pump of gypsy jigs", frame=page.frame)
+        marks = sheet_frame(block, page)
+        (title,) = (m for m in texts(marks) if m.name == "title")
+        ink = title.y + extent(title.markup, title.height)[2]
+        lines = [m.y1 for m in marks if isinstance(m, LineMark) and m.y1 == m.y2 and m.y1 > title.y]
+        assert min(lines) - ink > 0.4
 
 
 def test_long_values_take_the_next_smaller_iso_height_and_then_are_refused():

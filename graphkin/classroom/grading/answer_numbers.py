@@ -11,6 +11,7 @@ from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.quantities import CLOCKWISE
 from graphkin.scene.quantity import LENGTHS
+from graphkin.text import UNIT_LETTERS
 
 
 def words_in(text: str) -> frozenset[str]:
@@ -176,13 +177,11 @@ TURNS_A_MINUTE = [
     "U/min",
 ]
 """How turns in a minute are written in English, Romanian, Italian, French and German."""
-RUSSIAN = {"мм": "mm", "см": "cm", "м": "m", "рад": "rad", "град": "deg"} | {
-    "с": "s",
+RUSSIAN = {written.casefold(): unit for unit, written in UNIT_LETTERS["ru"].items()} | {
     "сек": "s",
-    "об": "rev",
-    "мин": "min",
+    "нм": "Nm",
 }
-"""The parts of units in Russian."""
+"""The parts of units in Russian, in small letters."""
 UNITS: dict[str, dict[str, float]] = {
     "mm": {"mm": 1, "cm": 10, "m": 1000, "in": 25.4},
     "m": {"m": 1, "cm": 0.01, "mm": 0.001, "in": 0.0254},
@@ -320,8 +319,10 @@ def plain_unit(text: str) -> str:
 
     The stop, comma or semicolon after it is left out.
     """
-    bare = re.sub(r"[\s()\[\]^*·]", "", text).translate(RAISED)
-    plain = re.sub(r"[а-я]+\.?", lambda part: RUSSIAN.get(part[0].rstrip("."), part[0]), bare)
+    latin = re.sub(
+        r"[А-Яа-я]+\.?", lambda part: RUSSIAN.get(part[0].rstrip(".").casefold(), part[0]), text
+    )
+    plain = re.sub(r"[\s()\[\]^*·]", "", latin).translate(RAISED)
     return re.sub(r"(?<=\w)[.,;]$|^;$", "", plain.replace("sec", "s"))
 
 

@@ -122,7 +122,7 @@ def shown(mark: EarnedMark) -> Status:
 
 def called(item: Item, words: Words) -> str:
     """A field's symbol and unit; for a sense, the word for it."""
-    unit = words("table.sense") if item.what == "sense" else item.unit
+    unit = words("table.sense") if item.what == "sense" else words.spelled(item.unit)
     return f"{mathtext(item.symbol)}, {unit}"
 
 
@@ -436,7 +436,9 @@ def unread_lines(
             who=names.get(cell.who, cell.who),
             field=cell.field,
             text=shown_cell(cell.text.strip()),
-            why=unread_words(cell.problem, cell.unit, words, shown_cell(beyond_number(cell.text))),
+            why=unread_words(
+                cell.problem, words.spelled(cell.unit), words, shown_cell(beyond_number(cell.text))
+            ),
         )
 
 

@@ -193,7 +193,7 @@ def quantity(mark: EarnedMark, words: Words) -> str:
     item = mark.item
     if item.what == "sense":
         return f"{item.symbol}, {words('table.sense')}"
-    return f"{item.symbol}, {unit_markup(item.unit)}"
+    return f"{item.symbol}, {unit_markup(words.spelled(item.unit))}"
 
 
 def unit_markup(unit: str) -> str:
@@ -230,7 +230,9 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     """The reason for what a field earned, in one sentence."""
     if mark.status is Status.UNREADABLE:
         rest = escape(safe(beyond_number(mark.answer.text)))
-        reason = unread(mark.answer.problem, unit_markup(mark.item.unit), words, rest)
+        reason = unread(
+            mark.answer.problem, unit_markup(words.spelled(mark.item.unit)), words, rest
+        )
         return reason if mark.is_ruled else words("feedback.unreadable", why=reason)
     if mark.rounded and mark.earned:
         few = mark.rounded == "few"

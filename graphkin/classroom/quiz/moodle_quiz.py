@@ -196,7 +196,12 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
     scene = sheets.mechanism.scene
     items = [gap.item for gap in found]
     rows = [
-        (gap.item.symbol, said(gap.item.what, words), Markup(cloze(gap, weight)), gap.item.unit)
+        (
+            gap.item.symbol,
+            said(gap.item.what, words),
+            Markup(cloze(gap, weight)),
+            words.spelled(gap.item.unit),
+        )
         for gap, weight in zip(found, heavy, strict=True)
     ]
     shown = {

@@ -47,7 +47,9 @@ def heading(gap: Gap, words: Words) -> str:
     """What a gap asks, as browser markup: symbol, kind and unit."""
     item = gap.item
     kind = words(KINDS[item.what]) if item.what in KINDS else words("table.sense")
-    return ", ".join(filter(None, (marked_up(item.symbol), marked_up(kind), item.unit)))
+    return ", ".join(
+        filter(None, (marked_up(item.symbol), marked_up(kind), words.spelled(item.unit)))
+    )
 
 
 def is_decided(gap: Gap) -> bool:

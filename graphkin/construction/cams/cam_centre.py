@@ -376,7 +376,7 @@ class CurvatureCentre(Determined, frozen=True, kw_only=True):
         in the scene's unit, or in millimetres of paper.
         """
         cam, words, k = drawing.scene.cams[self.follower], drawing.words, escape(self.follower)
-        mm = "mm" if on_paper else drawing.scene.units["length"]
+        mm = words.spelled("mm" if on_paper else drawing.scene.units["length"])
         one = float(drawing.on_paper(1.0)) if on_paper else drawing.length(1.0)
         at, rate, bend = (drawing.trace.values[each] for each in (self.lift, self.rate, self.bend))
         letter, per = ("ψ" if cam.lever else "s"), (1.0 if cam.lever else one)

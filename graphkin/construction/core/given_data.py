@@ -400,7 +400,7 @@ def module(scene: Scene, words: Words, wheel: Wheel) -> str:
     text = shortest(size)
     if wheel.sized and len(text) > ROUNDED:
         text = f"{float(size):.{ROUNDED - 1}g}"
-    return f"{words.decimal(text)} {wheel.radius.written_unit}"
+    return f"{words.decimal(text)} {words.spelled(wheel.radius.written_unit)}"
 
 
 def tracks(drawing: Drawing) -> Iterator[str]:
@@ -666,7 +666,7 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
         height = number_of(scene, words, exact(lift))
         points.append(f"{quantity_text(scene, words, at)}: {height}")
         at, lift = piece.to, lift + piece.rise.number(scene.values)
-    return ", ".join(points) + f" ({unit})"
+    return ", ".join(points) + f" ({words.spelled(unit)})"
 
 
 def cam_piece(scene: Scene, words: Words, piece: CamPiece) -> str:
@@ -760,7 +760,8 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:
     """The coordinates of the frame's points."""
     for placing in scene.frame.placings:
         if isinstance(placing, At):
-            place = f"{place_of(scene, words, placing)} {placing.x.written_unit}"
+            unit = words.spelled(placing.x.written_unit)
+            place = f"{place_of(scene, words, placing)} {unit}"
             yield Datum(name=symbol(placing.point), value=place, sign=" ")
 
 
@@ -775,7 +776,7 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 f"{symbol(placing.point)} {place_of(scene, words, placing)}" for placing in places
             )
             on_link = words("page.on_link", k=escape(link.name))
-            yield Datum(f"{points} {places[0].x.written_unit}, {on_link}")
+            yield Datum(f"{points} {words.spelled(places[0].x.written_unit)}, {on_link}")
         for placing in link.placings:
             point = symbol(placing.point)
             if isinstance(placing, Polar):

@@ -12,7 +12,13 @@ from typing import Any
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import FallsOnImage, construction
 from graphkin.construction.core.program import Drive, Plane, Step, plan_vector
-from graphkin.construction.core.quantities import OnPaper, in_mm, number_of, quantity_text
+from graphkin.construction.core.quantities import (
+    OnPaper,
+    in_millimetres,
+    in_mm,
+    number_of,
+    quantity_text,
+)
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, escape, symbol
@@ -144,12 +150,12 @@ def driver_of_rate(drawing: Drawing, number: int) -> Driver | None:
 
 def drawn_amount(drawing: Drawing, metres: float) -> str:
     """The drawn length of a length of the mechanism, in mm, as text."""
-    return f"{in_mm(drawing.words, drawing.on_paper(metres))} mm"
+    return in_millimetres(drawing.words, drawing.on_paper(metres))
 
 
 def plan_amount(drawing: Drawing, plane: Plane, size: float) -> str:
     """The drawn length of a vector with a given magnitude, in mm, as text."""
-    return f"{in_mm(drawing.words, drawn_in(drawing, plane, size))} mm"
+    return in_millimetres(drawing.words, drawn_in(drawing, plane, size))
 
 
 def sense(words: Words, value: Any) -> str:
@@ -223,7 +229,7 @@ def place(
     if lean is not None and link.points:
         start = next(p for p in link.placings if isinstance(p, At) and p.point == link.points[0])
         away, pin = (away - metres(drawing, (start.x, start.y))) * lean, start.point
-    unit = "mm" if on_paper else through[0].written_unit
+    unit = words.spelled("mm" if on_paper else through[0].written_unit)
     if on_paper:
         x, y = (in_mm(words, drawing.on_paper(part)) for part in (away.real, away.imag))
     elif pin:

@@ -315,6 +315,11 @@ ROUNDING = 1e-6
 """A length on paper below this, in mm, is only rounding."""
 
 
+def in_millimetres(words: Words, length: OnPaper) -> str:
+    """A length on paper with its unit, as text."""
+    return f"{in_mm(words, length)} {words.spelled('mm')}"
+
+
 def in_mm(words: Words, length: OnPaper) -> str:
     """A drawn length in mm as printed; one too short for a ruler is printed as <0.01."""
     under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
@@ -330,7 +335,7 @@ def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:
 def unit_words(words: Words, unit: str) -> str:
     """A unit of a scene as printed."""
     unit = plain_unit(unit)
-    return words(f"unit.{unit}") if words.has(f"unit.{unit}") else unit
+    return words(f"unit.{unit}") if words.has(f"unit.{unit}") else words.spelled(unit)
 
 
 def number_of(scene: Scene, words: Words, quantity: Quantity) -> str:

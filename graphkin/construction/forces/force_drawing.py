@@ -199,7 +199,7 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
             length = drawn_force(drawing, size)
             cells = (in_mm(words, length), value_of(words, size, length))
         rows.append(Row((symbol(name), *cells), name))
-    heads = words("table.symbol"), words("table.millimetres"), "N"
+    heads = words("table.symbol"), words("table.millimetres"), words.spelled("N")
     found = [CellTable(heads, rows, kind="sides")]
     if balance := balance_rows(drawing, empty=empty):
         over = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
@@ -301,5 +301,7 @@ def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
     for each in balances(drawing):
         found = (f"{each.value} {each.sense}".strip(), *([each.by_lever] if has_lever else []))
         cells = ("",) * len(found) if empty else found
-        rows.append(Row((f"{symbol(each.name)}, {each.unit}", *cells), each.name))
+        rows.append(
+            Row((f"{symbol(each.name)}, {drawing.words.spelled(each.unit)}", *cells), each.name)
+        )
     return rows

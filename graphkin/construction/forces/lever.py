@@ -18,7 +18,14 @@ from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.loads import LENGTH, LinkForce, newtons, on_lever, signed
+from graphkin.construction.forces.loads import (
+    LENGTH,
+    LinkForce,
+    newton_metres,
+    newtons,
+    on_lever,
+    signed,
+)
 from graphkin.construction.forces.moments import (
     SEEN,
     arm,
@@ -236,7 +243,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             "force": newtons(drawing, drawing.settled(force)),
             "m": symbol(self.moment_name),
             "bar": bar(*self.ends),
-            "size": f"{answer(drawing, abs(size))} N·m",
+            "size": newton_metres(drawing, size),
             "sense": sense(words, size),
         }
         if not size:
@@ -256,7 +263,7 @@ class LeverBalance(Construction, frozen=True, kw_only=True):
             "step.force-lever-rate",
             sum=self.sums(drawing)[0],
             below=symbol(f"ω_{self.link}"),
-            size=f"{answer(drawing, abs(size))} N·m",
+            size=newton_metres(drawing, size),
             sense=sense(words, size),
             **fields,
         )

@@ -23,6 +23,7 @@ from graphkin.construction.core.quantities import (
     FORCES,
     PAIR_REACTION,
     OnPaper,
+    in_millimetres,
     in_mm,
     quantity_text,
 )
@@ -40,7 +41,12 @@ from graphkin.text.markup import COMMA, saying
 
 def newtons(drawing: Drawing, size: float) -> str:
     """A force as printed, in N."""
-    return f"{answer(drawing, size)} N"
+    return f"{answer(drawing, size)} {drawing.words.spelled('N')}"
+
+
+def newton_metres(drawing: Drawing, moment: float) -> str:
+    """The magnitude of a moment as printed, in N·m."""
+    return f"{answer(drawing, abs(moment))} {drawing.words.spelled('N·m')}"
 
 
 def drawn_force(drawing: Drawing, size: float) -> OnPaper:
@@ -55,7 +61,7 @@ def on_lever(drawing: Drawing, speed: float) -> OnPaper:
 
 def force_amount(drawing: Drawing, size: float) -> str:
     """The drawn length of a force in a polygon, as text."""
-    return f"{in_mm(drawing.words, drawn_force(drawing, size))} mm"
+    return in_millimetres(drawing.words, drawn_force(drawing, size))
 
 
 def signed(terms: Iterable[tuple[bool, str]]) -> str:
@@ -376,7 +382,7 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
             turning=symbol("M_" + sub("i", self.link)),
             j=symbol(f"J_{self.link}"),
             e=symbol(f"ε_{self.link}"),
-            size=f"{answer(drawing, abs(moment))} N·m",
+            size=newton_metres(drawing, moment),
             sense=sense(drawing.words, moment),
         )
 

@@ -24,7 +24,13 @@ from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.loads import LinkForce, force_amount, newtons, signed
+from graphkin.construction.forces.loads import (
+    LinkForce,
+    force_amount,
+    newton_metres,
+    newtons,
+    signed,
+)
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.drawing.symbols import SQUARE
 from graphkin.numbers.arithmetic import Point, Real, pick
@@ -556,7 +562,7 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
             "k": escape(self.link),
             "o": symbol(self.moments.letter),
             "m": symbol(self.name),
-            "size": f"{answer(drawing, abs(size))} N·m",
+            "size": newton_metres(drawing, size),
             "sense": sense(drawing.words, size),
             "sum": self.moments.symbols(drawing, turned=size > 0),
         }

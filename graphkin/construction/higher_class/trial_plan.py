@@ -352,7 +352,7 @@ def has_many_digits(size: float) -> bool:
 
 def amount(drawing: Drawing, size: float, unit: str) -> str:
     """An amount with its unit; zero without a unit."""
-    return f"{figure(drawing, size)} {unit}" if size else "0"
+    return f"{figure(drawing, size)} {drawing.words.unit(unit)}" if size else "0"
 
 
 def leg_start(drawing: Drawing, step: Step) -> int | None:

@@ -216,7 +216,7 @@ def driver_missed(drawing: Drawing, first: DrivenMisclosure, second: DrivenMiscl
     driver = first.driver
     if driver.kind == "turn":
         fields = {key: figure(drawing, size) for key, size in sizes.items()}
-        fields["unit"] = drawing.rate.caret_unit
+        fields["unit"] = drawing.words.spelled(drawing.rate.caret_unit)
         what = drawing.in_signs(f"*{drawing.rate.letter}*_{{{driver_index(driver)}}}")
         return drawing.words("step.share-turn", what=what, **fields)
     mm = on_paper(drawing)

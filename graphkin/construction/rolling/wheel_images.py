@@ -69,7 +69,8 @@ class RateByRadii(GivesRate, frozen=True, kw_only=True):
         other = rate_symbol(drawing, self.turning, drawing.rate.letter)
         radii = "/".join(of_wheel("r", sign) for sign in self.signs)
         value = drawing.words.significant(float(values[self.rate]))
-        return f" = {sign}{other}·{radii} = {value} {drawing.rate.caret_unit}"
+        unit = drawing.words.spelled(drawing.rate.caret_unit)
+        return f" = {sign}{other}·{radii} = {value} {unit}"
 
 
 @by_contact

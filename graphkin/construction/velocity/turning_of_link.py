@@ -141,7 +141,9 @@ class SummedRate(GivesRate, frozen=True, kw_only=True):
     def source_of_rate(self, drawing: Drawing) -> str:
         """The sum with its value."""
         value = drawing.words.significant(float(drawing.trace.values[self.rate]))
-        return f" = {self.whole(drawing)} = {value} {drawing.rate.caret_unit}"
+        return (
+            f" = {self.whole(drawing)} = {value} {drawing.words.spelled(drawing.rate.caret_unit)}"
+        )
 
     def relation(self, drawing: Drawing) -> Relation:
         """The relation for the sum, with its values."""

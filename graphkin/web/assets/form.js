@@ -68,10 +68,10 @@ function power({ power: plain, raised }) {
 }
 
 function plainUnit(text) {
-  const bare = [...text.replace(/[\s()[\]^*·]/g, "")]
+  const latin = text.replace(/[А-Яа-я]+\.?/g, part => told.russian[part.replace(".", "").toLowerCase()] || part);
+  const plain = [...latin.replace(/[\s()[\]^*·]/g, "")]
     .map(sign => told.raised[sign] || sign)
     .join("");
-  const plain = bare.replace(/[а-я]+\.?/g, part => told.russian[part.replace(".", "")] || part);
   return plain.replaceAll("sec", "s").replace(/([\p{L}\p{N}])[.,;]$|^;$/u, "$1");
 }
 

@@ -23,6 +23,8 @@ RATE = Item("omega_3", "value", "ω", "rad/s", "omega", "3")
 HARD = Item("a_D", "value", "a", "m/s²", "acceleration", "D")
 SENSE = Item("omega_3", "sense", "ω", "", "omega", "3")
 SLIDING = Item("v_slide_2", "sense", "v", "", "slide speed", "2")
+FORCE = Item("R_12", "value", "R", "N", "reaction", "12")
+MOMENT = Item("M_b1", "value", "M", "N·m", "balancing moment", "1")
 FORM = (LENGTH, SPEED, RATE, SENSE)
 IDS = ("001", "002", "ĂÎ-3")
 NUMBERS = (
@@ -48,6 +50,9 @@ NUMBERS = (
     (SPEED, 0.43, "0,43 м/с | 430 мм/сек | 0.43 m·s⁻¹ | 0.43 M/S"),
     (HARD, 473.0, "473 м/с² | 473 m·s⁻² | 473 m/sec²,"),
     (Item("x", "value", "x", "m", "", "x"), 0.0508, "2 in"),
+    (FORCE, 12.5, "12,5 Н | 12.5 N | 0,0125 кН"),
+    (MOMENT, 12.5, "12,5 Н·м | 12.5 Нм | 12,5 Н м | 12.5 N·m | 12.5 Nm"),
+    (SPEED, 0.43, "0,43 М/С"),
     (Item("x", "value", "x", "rad/s²", "", "x"), pi, "180 deg/s2"),
 )
 """What is written, by its field, and the number meant: an inch is 25.4 mm; half a turn is π rad,
