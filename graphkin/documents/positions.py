@@ -25,11 +25,11 @@ from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at, cycle_at
-from graphkin.motion.driving import TURN
 from graphkin.motion.equal_positions import Start, equal_places
 from graphkin.motion.follower_limits import Follower, followers
-from graphkin.motion.pieces import Piece, reachable_ranges
+from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
+from graphkin.motion.travel import is_to_and_fro
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.requests import FEWEST_STEPS, MOST_STEPS
@@ -154,7 +154,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     at = equal_places(moved, count_of(mechanism), start_of(mechanism), "positions.start")
     refuse_numbers(wanted, len(at))
     few = moved.along(at)
-    travel = next(filter(has_stroke, reversed(followers(moved))), None)
+    travel = next(filter(is_to_and_fro, reversed(followers(moved))), None)
     ends = dead_places(moved, travel)
     named = {nearest: name for name, nearest in also_at(at, ends, moved)}
     between = [(name, u) for name, u in ends if name not in named.values()]
@@ -178,11 +178,6 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     nearest = int(np.abs(at - own).argmin())
     strong = nearest if wanted.strong is None else wanted.strong
     return PositionSet(moved, wanted, numbered, dead, strong, travel, difference)
-
-
-def has_stroke(travel: Follower) -> bool:
-    """Whether a follower moves to and fro: a block, or a link that never turns fully."""
-    return not travel.full and (travel.line is None or travel.extent < TURN)
 
 
 def rates_of(mechanism: Mechanism) -> list[Target]:
@@ -278,23 +273,11 @@ def pace_of(mechanism: Mechanism) -> float:
     return 1 / crank if crank else natural_seconds(mechanism)
 
 
-def piece_at(moved: Cycle, place: float) -> tuple[Piece, float]:
-    """The piece of the scene's range that holds a place, and the place within that piece."""
-    pieces = moved.path.ranges[0]
-    slack = ALIKE * (moved.ranges[0][1] - moved.ranges[0][0])
-    for piece in pieces:
-        for shift in moved.path.shifts(place):
-            u = place + shift
-            if piece.low.at - slack <= u <= piece.high.at + slack:
-                return piece, min(max(u, piece.low.at), piece.high.at)
-    raise ValueError(place)
-
-
 def drawn(moved: Cycle, places: Sequence[tuple[str, float]], words: Words) -> list[Drawing]:
     """The mechanism at each place without plans, dead points included, from one batch a piece."""
     found: dict[int, Drawing] = {}
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
-    held = [piece_at(moved, u) for _, u in places]
+    held = [moved.piece_at(u) for _, u in places]
     for piece in moved.path.ranges[0]:
         rows = [i for i, (own, _) in enumerate(held) if own is piece]
         if not rows:
@@ -319,8 +302,7 @@ def entry(value: Any, k: int) -> Any:
 
 def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[str, Drawing]:
     """The plans that the scene asks for at a place, each constructed by hand."""
-    piece, within = piece_at(moved, place)
-    mechanism = piece.course.mechanism(within)
+    mechanism = moved.mechanism_at(place)
     scales = Scales(1.0, seconds, of_crank=float(the_crank(moved.mechanism) > 0), triangles=False)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     kinds = {kind: targets_of(mechanism, kind) for kind in SHEETS}
