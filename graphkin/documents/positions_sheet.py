@@ -75,8 +75,8 @@ from graphkin.motion.follower_limits import Follower
 from graphkin.scene.model import FRAME
 from graphkin.text.errors import PageError
 
-AROUND, OVER = 22.0, 17.0
-"""Room at the sides of the drawing, and above and below it, for numbers and the stroke, in mm."""
+AROUND, OVER = 22.0, 13.0
+"""Room at the sides of the drawing, and above and below it, for numbers, in mm."""
 DOT, FINE_DOT = 0.7, 0.5
 """Radius of a numbered pin in mm, and where many are drawn."""
 CROWD = 80
@@ -85,6 +85,8 @@ MANY = 16
 """Number of positions from which numbers are as small as lettering allows."""
 ASIDE, BEYOND = 13.0, 1.5
 """Distance of the stroke's dimension from the path, and length of extension lines beyond it, mm."""
+STROKE_ROOM = ASIDE + 1.0
+"""Distance from the path at which the dimension of the stroke needs room, in mm."""
 SHARE = 0.45
 """Radius of the arc of a swing, as a share of the link."""
 TRIES = 18
@@ -117,7 +119,7 @@ def positions_page(found: PositionSet, number: str) -> Page:
         *places_table(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
         *proof(found),
     ]
-    title = f"{title_of(drawing)} – {words('sheet.positions')}"
+    title = f"{words('sheet.positions')} – {title_of(drawing)}"
     kind, scale = document(drawing, "mechanism"), words.decimal(drawing.scales.words)
     return framed(drawing, number, kind, scale, marks, title)
 
@@ -187,11 +189,30 @@ def at_scale(found: PositionSet) -> Position:
     left, top, right, low = field_on(found)
     wide, high = right - left - 2 * AROUND, low - top - 2 * OVER
     least = 1000 * max(whole.width / wide, whole.height / high)
-    kL = next(preferred_scales(least))
+    drawn = (scaled(found.shown.alone, kL) for kL in preferred_scales(least))
+    drawing = next(each for each in drawn if has_room_for_stroke(found, each))
     stated = found.cycle.scene.sheet.scale
     own = float(stated.number(found.cycle.scene.values)) if stated is not None else 0.0
-    scales = Scales(own if own >= least else kL, 1.0)
-    return replace(found.shown, alone=replace(found.shown.alone, scales=scales))
+    if own >= least:
+        drawing = scaled(drawing, own)
+    return replace(found.shown, alone=drawing)
+
+
+def scaled(drawing: Drawing, kL: float) -> Drawing:
+    """A mechanism at a scale."""
+    return replace(drawing, scales=Scales(kL, 1.0))
+
+
+def has_room_for_stroke(found: PositionSet, drawing: Drawing) -> bool:
+    """Whether the stroke of a block has room for its dimension on the outer side of its path."""
+    field = field_of(found, drawing)
+    path = stroke_of(found, drawing, field)
+    if path is None:
+        return True
+    low, high, along = path
+    sides = [across(low, along, distance(low, high) / 2, side * STROKE_ROOM) for side in (1, -1)]
+    outer = max(sides, key=lambda at: dist(at, centre(field.rect)))
+    return inside(outer, field.rect)
 
 
 def field_of(found: PositionSet, drawing: Drawing) -> Field:
@@ -482,18 +503,27 @@ def direction(angle: float) -> XY:
     return cos(radians(angle)), -sin(radians(angle))
 
 
-def block_ends(
-    board: FieldContent, found: PositionSet, field: Field
-) -> tuple[XY, XY, XY, XY] | None:
-    """The ends of a block's stroke on its path, and those of its dimension line beside it."""
-    travel, drawing = found.follower, found.shown.alone
-    assert travel is not None
+def stroke_of(found: PositionSet, drawing: Drawing, field: Field) -> tuple[XY, XY, XY] | None:
+    """The ends of the stroke of a block on the frame, and its direction; None without any."""
+    travel = found.follower
+    if travel is None or travel.line is not None:
+        return None
     way = next((w for w in drawing.standing.guideways if w.block == travel.name), None)
     if way is None or way.slide.on != FRAME:
         return None
     start = way.at + (travel.low.value - way.coordinate) * way.along
     end = way.at + (travel.high.value - way.coordinate) * way.along
-    first, last, along = field(start), field(end), field.way(way.along)
+    return field(start), field(end), field.way(way.along)
+
+
+def block_ends(
+    board: FieldContent, found: PositionSet, field: Field
+) -> tuple[XY, XY, XY, XY] | None:
+    """The ends of a block's stroke on its path, and those of its dimension line beside it."""
+    path = stroke_of(found, found.shown.alone, field)
+    if path is None:
+        return None
+    first, last, along = path
     lines = struck_lines(board)
     sides = [side * (ASIDE + 6 * i) for i in range(TRIES) for side in (1, -1)]
 
