@@ -6,6 +6,7 @@ constructed by hand, and the vector loops check every position before anything i
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from math import degrees
@@ -17,7 +18,12 @@ from msgspec import Struct
 from graphkin.construction.core.component import as_drawn
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, Target
-from graphkin.construction.core.quantities import QUANTITIES, SHEETS
+from graphkin.construction.core.quantities import (
+    QUANTITIES,
+    SHEETS,
+    MotionQuantity,
+    names_asked,
+)
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import natural_seconds, targets_of, the_crank
@@ -30,6 +36,7 @@ from graphkin.motion.follower_limits import Follower, followers
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
 from graphkin.motion.travel import is_to_and_fro
+from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.requests import FEWEST_STEPS, MOST_STEPS
@@ -42,6 +49,8 @@ ALIKE = 1e-6
 """Distance of two places of the driver, as a share of its range, below which they are one."""
 MOVED = ("position", "slide")
 """Targets of a batch of positions that move with the driver."""
+SHOWN = 1e-7
+"""Share of a travel, and degrees of a swing, below which a way is zero."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI")
 """The names of dead points."""
 
@@ -326,6 +335,60 @@ def numbers_of(found: PositionSet) -> list[str]:
         return [words.fixed(p.at % period if period else p.at, 1) for p in found.every]
     factor = found.shown.alone.length(1.0) if sweep.is_length else 1.0
     return [words.decimal(f"{p.at * factor:.4g}") for p in found.every]
+
+
+class ValueRow(Struct, frozen=True):
+    """A row of values below the positions, with its symbol and unit."""
+
+    head: str
+    values: list[str]
+
+
+def travel_row(found: PositionSet) -> list[ValueRow]:
+    """The way of the follower from its low limit at every position, if it moves to and fro."""
+    travel, drawing = found.follower, found.shown.alone
+    if travel is None:
+        return []
+    words, some = drawing.words, [each.alone for each in found.every]
+    if travel.line is not None:
+        start, tip = travel.line
+        lines = (each.positions[tip] - each.positions[start] for each in some)
+        ways = [(degrees(phase(line)) - travel.low.value) % 360 for line in lines]
+        shown = [words.fixed(0.0 if way > 360 - SHOWN else way, 1) for way in ways]
+        return [ValueRow(f"{drawing.symbol(f'ψ_{travel.name}')} (°)", shown)]
+    guides = [
+        next((w for w in each.standing.guideways if w.block == travel.name), None) for each in some
+    ]
+    known = [guide for guide in guides if guide is not None]
+    if len(known) < len(guides):
+        return []
+    ways = [drawing.length(float(each.coordinate) - travel.low.value) for each in known]
+    least = SHOWN * drawing.length(travel.extent)
+    shown = [words.significant(way, 4) if way > least else "0" for way in ways]
+    return [
+        ValueRow(f"{drawing.symbol(f's_{travel.name}')} ({drawing.scene.units['length']})", shown)
+    ]
+
+
+def plan_rows(found: PositionSet, kind: str) -> Iterator[ValueRow]:
+    """The sizes of the vectors and rates asked of a kind of plan, at every numbered position."""
+    plans = [each.plans.get(kind) for each in found.numbered]
+    drawing, scene = next(filter(None, plans)), found.cycle.scene
+    for quantity in (drawing.vector, drawing.rate):
+        for name in names_asked(scene.ask, quantity):
+            own = point_of(scene, name) if quantity is drawing.vector else name
+            shown = ["–" if plan is None else value_in(plan, quantity, own) for plan in plans]
+            sign = drawing.symbol(f"{quantity.letter}_{lettered(own)}")
+            yield ValueRow(f"{sign} ({drawing.words.unit(quantity.caret_unit)})", shown)
+
+
+def value_in(drawing: Drawing, quantity: MotionQuantity, of: str) -> str:
+    """The size of a vector, or a rate with its sign, in one plan."""
+    value: Any = drawing.trace.value(quantity.target, of)
+    if value is None:
+        return "–"
+    rate = drawing.turning(of) if quantity is drawing.rate else drawing.settled(abs(value))
+    return drawing.words.significant(float(rate or 0.0), 3)
 
 
 def at_position(name: str, number: str) -> str:

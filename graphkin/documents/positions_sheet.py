@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
-from itertools import pairwise
+from itertools import chain, pairwise
 from math import acos, cos, degrees, dist, hypot, inf, pi, radians, sin
 
 import numpy as np
@@ -36,9 +36,11 @@ from graphkin.construction.links.mechanism_symbols import (
 from graphkin.documents.positions import (
     Position,
     PositionSet,
+    ValueRow,
     at_position,
     is_whole,
     numbers_of,
+    travel_row,
 )
 from graphkin.documents.sheet import (
     LETTERS,
@@ -116,7 +118,10 @@ def positions_page(found: PositionSet, number: str) -> Page:
         *letters,
         *numerals,
         *foot_line(found),
-        *places_table(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
+        *places_table(
+            *(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
+            travel_row(found),
+        ),
         *proof(found),
     ]
     title = f"{words('sheet.positions')} – {title_of(drawing)}"
@@ -581,9 +586,15 @@ PROOF = 4.0
 
 
 def places_table(
-    found: PositionSet, some: Sequence[Position], said: Sequence[str]
+    found: PositionSet,
+    some: Sequence[Position],
+    said: Sequence[str],
+    more: Sequence[ValueRow] = (),
 ) -> Iterator[Mark]:
-    """The numbers of some positions above the places of the driver there, and sentences below."""
+    """The numbers of some positions above the places of the driver there, and sentences below.
+
+    ``more`` are rows of values that are shown where there is room.
+    """
     words, sweep = found.shown.alone.words, found.cycle.sweep
     left, top, right, foot = found.shown.alone.paper.leaf.notes
     top += 4
@@ -595,18 +606,22 @@ def places_table(
         head_of = f"{name} ({unit})"
     names, values = [each.name for each in some], numbers_of(found)
     lines = flowed(said, "; ", right - left, 2.5)
-    widest = PAD + max(extent(each, 2.5)[0] for each in (*names, *values))
+    texts = (*names, *values, *chain(*(row.values for row in more)))
+    widest = PAD + max(extent(each, 2.5)[0] for each in texts)
     count = -(-len(names) // min(IN_ROW, int((right - left - FIRST) / widest)))
     room = foot - PROOF - top - 4.2 * len(lines)
     own, gap = (ROW, 1.5) if count * (2 * ROW + 1.5) <= room else CLOSE
     count = min(count, max(int(room / (2 * own + gap)), 1))
     per = -(-len(names) // count)
+    whole = [(words("positions.number"), names), (head_of, values)]
+    if count == 1 and own == ROW:
+        whole += [(row.head, row.values) for row in more[: int((room - gap) / ROW) - len(whole)]]
     width = (right - left - FIRST) / per
     small = width < widest or own < ROW
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
-        begin = top + k * (2 * own + gap)
-        rows = ((words("positions.number"), names[row]), (head_of, values[row]))
+        begin = top + k * (len(whole) * own + gap)
+        rows = [(first, texts[row]) for first, texts in whole]
         end = left + FIRST + width * len(names[row])
         yield box(left, begin, end - left, own, "shade")
         for i, (first, texts) in enumerate(rows):
@@ -617,11 +632,11 @@ def places_table(
                 x = left + FIRST + width * (j + 0.5)
                 height = 1.8 if small else 2.5
                 yield Text(x, base, text, "table", height, "middle", "positions")
-        for i in range(3):
+        for i in range(len(rows) + 1):
             yield LineMark(left, begin + i * own, end, begin + i * own, "panel")
         for x in (left, *(left + FIRST + width * j for j in range(len(names[row]) + 1))):
-            yield LineMark(x, begin, x, begin + 2 * own, "panel")
-    low = top + count * (2 * own + gap) + 3.5
+            yield LineMark(x, begin, x, begin + len(rows) * own, "panel")
+    low = top + count * (len(whole) * own + gap) + 3.5
     for i, line in enumerate(lines):
         yield Text(left, low + 4.2 * i, line, "caption", 2.5, name="legend")
 
