@@ -9,7 +9,7 @@ from __future__ import annotations
 from cmath import phase
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from math import degrees
+from math import degrees, floor, log10
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at, cycle_at
+from graphkin.motion.driving import TURN
 from graphkin.motion.equal_positions import Start, equal_places
 from graphkin.motion.follower_limits import Follower, followers
 from graphkin.motion.pieces import reachable_ranges
@@ -49,8 +50,8 @@ ALIKE = 1e-6
 """Distance of two places of the driver, as a share of its range, below which they are one."""
 MOVED = ("position", "slide")
 """Targets of a batch of positions that move with the driver."""
-SHOWN = 1e-7
-"""Share of a travel, and degrees of a swing, below which a way is zero."""
+BELOW = 1e-3
+"""Degrees below its low limit at which the angle of a link still counts from there."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI")
 """The names of dead points."""
 
@@ -343,31 +344,36 @@ class ValueRow(Struct, frozen=True):
     head: str
     values: list[str]
 
+    @classmethod
+    def of(cls, head: str, values: Sequence[float | None], words: Words) -> ValueRow:
+        """A row of values with as many decimals as give the largest four digits."""
+        largest = max((abs(each) for each in values if each is not None), default=0.0)
+        places = max(3 - floor(log10(largest)), 0) if largest else 0
+        return cls(head, ["–" if each is None else words.fixed(each, places) for each in values])
+
 
 def travel_row(found: PositionSet) -> list[ValueRow]:
     """The way of the follower from its low limit at every position, if it moves to and fro."""
     travel, drawing = found.follower, found.shown.alone
     if travel is None:
         return []
-    words, some = drawing.words, [each.alone for each in found.every]
+    some = [each.alone for each in found.every]
     if travel.line is not None:
         start, tip = travel.line
         lines = (each.positions[tip] - each.positions[start] for each in some)
-        ways = [(degrees(phase(line)) - travel.low.value) % 360 for line in lines]
-        shown = [words.fixed(0.0 if way > 360 - SHOWN else way, 1) for way in ways]
-        return [ValueRow(f"{drawing.symbol(f'ψ_{travel.name}')} (°)", shown)]
+        ways = [(degrees(phase(line)) - travel.low.value + BELOW) % TURN - BELOW for line in lines]
+        return [ValueRow.of(f"{drawing.symbol(f'ψ_{travel.name}')} (°)", ways, drawing.words)]
     guides = [
-        next((w for w in each.standing.guideways if w.block == travel.name), None) for each in some
+        guide.coordinate
+        for each in some
+        for guide in each.standing.guideways
+        if guide.block == travel.name
     ]
-    known = [guide for guide in guides if guide is not None]
-    if len(known) < len(guides):
+    if len(guides) < len(some):
         return []
-    ways = [drawing.length(float(each.coordinate) - travel.low.value) for each in known]
-    least = SHOWN * drawing.length(travel.extent)
-    shown = [words.significant(way, 4) if way > least else "0" for way in ways]
-    return [
-        ValueRow(f"{drawing.symbol(f's_{travel.name}')} ({drawing.scene.units['length']})", shown)
-    ]
+    ways = [drawing.length(float(each) - travel.low.value) for each in guides]
+    head = f"{drawing.symbol(f's_{travel.name}')} ({drawing.scene.units['length']})"
+    return [ValueRow.of(head, ways, drawing.words)]
 
 
 def plan_rows(found: PositionSet, kind: str) -> Iterator[ValueRow]:
@@ -377,18 +383,18 @@ def plan_rows(found: PositionSet, kind: str) -> Iterator[ValueRow]:
     for quantity in (drawing.vector, drawing.rate):
         for name in names_asked(scene.ask, quantity):
             own = point_of(scene, name) if quantity is drawing.vector else name
-            shown = ["–" if plan is None else value_in(plan, quantity, own) for plan in plans]
+            values = [None if plan is None else value_in(plan, quantity, own) for plan in plans]
             sign = drawing.symbol(f"{quantity.letter}_{lettered(own)}")
-            yield ValueRow(f"{sign} ({drawing.words.unit(quantity.caret_unit)})", shown)
+            head = f"{sign} ({drawing.words.unit(quantity.caret_unit)})"
+            yield ValueRow.of(head, values, drawing.words)
 
 
-def value_in(drawing: Drawing, quantity: MotionQuantity, of: str) -> str:
+def value_in(drawing: Drawing, quantity: MotionQuantity, of: str) -> float | None:
     """The size of a vector, or a rate with its sign, in one plan."""
-    value: Any = drawing.trace.value(quantity.target, of)
-    if value is None:
-        return "–"
-    rate = drawing.turning(of) if quantity is drawing.rate else drawing.settled(abs(value))
-    return drawing.words.significant(float(rate or 0.0), 3)
+    if quantity is drawing.rate:
+        return drawing.turning(of)
+    value = drawing.trace.value(quantity.target, of)
+    return None if value is None else abs(value)
 
 
 def at_position(name: str, number: str) -> str:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import reduce
-from itertools import chain, pairwise
+from itertools import pairwise
 from math import acos, cos, degrees, dist, hypot, inf, pi, radians, sin
 
 import numpy as np
@@ -606,17 +606,20 @@ def places_table(
         head_of = f"{name} ({unit})"
     names, values = [each.name for each in some], numbers_of(found)
     lines = flowed(said, "; ", right - left, 2.5)
-    texts = (*names, *values, *chain(*(row.values for row in more)))
-    widest = PAD + max(extent(each, 2.5)[0] for each in texts)
+    widest = PAD + max(extent(each, 2.5)[0] for each in (*names, *values))
     count = -(-len(names) // min(IN_ROW, int((right - left - FIRST) / widest)))
     room = foot - PROOF - top - 4.2 * len(lines)
     own, gap = (ROW, 1.5) if count * (2 * ROW + 1.5) <= room else CLOSE
     count = min(count, max(int(room / (2 * own + gap)), 1))
     per = -(-len(names) // count)
+    width = (right - left - FIRST) / per
     whole = [(words("positions.number"), names), (head_of, values)]
     if count == 1 and own == ROW:
-        whole += [(row.head, row.values) for row in more[: int((room - gap) / ROW) - len(whole)]]
-    width = (right - left - FIRST) / per
+        least = width - PAD
+        wide = (max(extent(each, 2.5)[0] for each in row.values) for row in more)
+        some_rows = [row for row, each in zip(more, wide, strict=True) if each <= least]
+        free = int((room - gap) / ROW) - len(whole)
+        whole += [(row.head, row.values) for row in some_rows[:free]]
     small = width < widest or own < ROW
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
