@@ -13,7 +13,7 @@ from graphkin import service
 from graphkin.construction.compile import Laid, laid, write
 from graphkin.construction.core.branches import may_be_numbered
 from graphkin.construction.core.program import Program, Target
-from graphkin.construction.core.quantities import ASKED
+from graphkin.construction.core.quantities import ASKED, TRAVEL
 from graphkin.construction.core.run import StepFailed, Trace, run
 from graphkin.construction.core.solution import (
     Solution,
@@ -232,6 +232,7 @@ class Mechanism(Struct, frozen=True, dict=True):
             for key, some in ASKED.items()
             for name in getattr(self.scene.ask, key)
             for quantity in some
+            if quantity not in TRAVEL
         ]
         wanted = wanted or self.for_forces() or list(self.program.answers)
         wanted += self.forces_asked()

@@ -33,7 +33,7 @@ from graphkin.classroom.lab.items import items as fields_of
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Lab
 from graphkin.classroom.printing.personal import SIDE, square
-from graphkin.construction.core.quantities import BY_TARGET, CLOCKWISE, FORCE, SHEETS
+from graphkin.construction.core.quantities import BY_TARGET, CLOCKWISE, FORCE, SHEETS, STROKE
 from graphkin.drawing.field import A4_AREA, A4_PAGE, TextPage
 from graphkin.drawing.frame import on_page, page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
@@ -255,7 +255,7 @@ def form_fragment(
     board of its page tells when a point is right.
     """
     sheets = []
-    for sheet in (*SHEETS, FORCE):
+    for sheet in (*SHEETS, FORCE, STROKE.kind):
         alike = groupby((item for item in items if motion_of(item).kind == sheet), kind_of)
         groups = [
             [field(item, points.get(item.field), item.field in compute, words) for item in own]

@@ -35,6 +35,7 @@ from graphkin.documents.positions import PositionSet, at_position, is_whole
 from graphkin.documents.positions_sheet import (
     AIR,
     MANY,
+    PROOF,
     field_on,
     foot_line,
     framed,
@@ -616,16 +617,26 @@ def field_caption(motion: FollowerMotion, signs: str) -> Iterator[Mark]:
     yield from headline(motion.found, text)
 
 
+SPACED = ((LETTERS, 4.3), (LETTERS, 3.6), (1.8, 3.0), (1.8, 2.6))
+"""Heights of letters and distances of lines of the sentences, in mm: the first that has room."""
+
+
 def sentence_lines(found: PositionSet, said: Sequence[str]) -> Iterator[Mark]:
-    """Sentences below the field, left of the title block."""
-    left, y, right, _ = found.shown.alone.paper.leaf.notes
-    y += 4.2
-    for number, sentence in enumerate(said, 1):
-        for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, LETTERS)):
-            if not i:
-                yield Text(left, y, f"{number}.", "caption", LETTERS, name="sentence")
-            yield Text(left + 5, y, line, "caption", LETTERS, name="sentence")
-            y += 4.3
+    """Sentences below the field, left of the title block and above the residual check."""
+    left, top, right, low = found.shown.alone.paper.leaf.notes
+    for letters, leading in SPACED:
+        lines = [
+            (f"{number}." if not i else "", line)
+            for number, sentence in enumerate(said, 1)
+            for i, line in enumerate(flowed(sentence.split(" "), " ", right - left - 5, letters))
+        ]
+        if 4.2 + (len(lines) - 1) * leading <= low - PROOF - top:
+            break
+    for i, (number, line) in enumerate(lines):
+        y = top + 4.2 + i * leading
+        if number:
+            yield Text(left, y, number, "caption", letters, name="sentence")
+        yield Text(left + 5, y, line, "caption", letters, name="sentence")
 
 
 # --- scales and errors ----------------------------------------------------------------------------

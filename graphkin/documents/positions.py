@@ -6,9 +6,10 @@ constructed by hand, and the vector loops check every position before anything i
 
 from __future__ import annotations
 
+from cmath import phase
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from math import degrees
+from math import degrees, floor, log10
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,12 @@ from msgspec import Struct
 from graphkin.construction.core.component import as_drawn
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.program import PLACES, Target
-from graphkin.construction.core.quantities import QUANTITIES, SHEETS
+from graphkin.construction.core.quantities import (
+    QUANTITIES,
+    SHEETS,
+    MotionQuantity,
+    names_asked,
+)
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import FAIR, Verdict
 from graphkin.documents.scaling import natural_seconds, targets_of, the_crank
@@ -28,8 +34,10 @@ from graphkin.motion.cycle import Cycle, columns_at, cycle_at
 from graphkin.motion.driving import TURN
 from graphkin.motion.equal_positions import Start, equal_places
 from graphkin.motion.follower_limits import Follower, followers
-from graphkin.motion.pieces import Piece, reachable_ranges
+from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
+from graphkin.motion.travel import is_to_and_fro
+from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.requests import FEWEST_STEPS, MOST_STEPS
@@ -42,6 +50,8 @@ ALIKE = 1e-6
 """Distance of two places of the driver, as a share of its range, below which they are one."""
 MOVED = ("position", "slide")
 """Targets of a batch of positions that move with the driver."""
+BELOW = 1e-3
+"""Degrees below its low limit at which the angle of a link still counts from there."""
 ROMAN = ("I", "II", "III", "IV", "V", "VI")
 """The names of dead points."""
 
@@ -154,7 +164,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     at = equal_places(moved, count_of(mechanism), start_of(mechanism), "positions.start")
     refuse_numbers(wanted, len(at))
     few = moved.along(at)
-    travel = next(filter(has_stroke, reversed(followers(moved))), None)
+    travel = next(filter(is_to_and_fro, reversed(followers(moved))), None)
     ends = dead_places(moved, travel)
     named = {nearest: name for name, nearest in also_at(at, ends, moved)}
     between = [(name, u) for name, u in ends if name not in named.values()]
@@ -178,11 +188,6 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
     nearest = int(np.abs(at - own).argmin())
     strong = nearest if wanted.strong is None else wanted.strong
     return PositionSet(moved, wanted, numbered, dead, strong, travel, difference)
-
-
-def has_stroke(travel: Follower) -> bool:
-    """Whether a follower moves to and fro: a block, or a link that never turns fully."""
-    return not travel.full and (travel.line is None or travel.extent < TURN)
 
 
 def rates_of(mechanism: Mechanism) -> list[Target]:
@@ -278,23 +283,11 @@ def pace_of(mechanism: Mechanism) -> float:
     return 1 / crank if crank else natural_seconds(mechanism)
 
 
-def piece_at(moved: Cycle, place: float) -> tuple[Piece, float]:
-    """The piece of the scene's range that holds a place, and the place within that piece."""
-    pieces = moved.path.ranges[0]
-    slack = ALIKE * (moved.ranges[0][1] - moved.ranges[0][0])
-    for piece in pieces:
-        for shift in moved.path.shifts(place):
-            u = place + shift
-            if piece.low.at - slack <= u <= piece.high.at + slack:
-                return piece, min(max(u, piece.low.at), piece.high.at)
-    raise ValueError(place)
-
-
 def drawn(moved: Cycle, places: Sequence[tuple[str, float]], words: Words) -> list[Drawing]:
     """The mechanism at each place without plans, dead points included, from one batch a piece."""
     found: dict[int, Drawing] = {}
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
-    held = [piece_at(moved, u) for _, u in places]
+    held = [moved.piece_at(u) for _, u in places]
     for piece in moved.path.ranges[0]:
         rows = [i for i, (own, _) in enumerate(held) if own is piece]
         if not rows:
@@ -319,8 +312,7 @@ def entry(value: Any, k: int) -> Any:
 
 def plans_at(moved: Cycle, place: float, seconds: float, words: Words) -> dict[str, Drawing]:
     """The plans that the scene asks for at a place, each constructed by hand."""
-    piece, within = piece_at(moved, place)
-    mechanism = piece.course.mechanism(within)
+    mechanism = moved.mechanism_at(place)
     scales = Scales(1.0, seconds, of_crank=float(the_crank(moved.mechanism) > 0), triangles=False)
     nobody = Verdict(True, 0.0, "", 0.0, 0.0, 0.0)
     kinds = {kind: targets_of(mechanism, kind) for kind in SHEETS}
@@ -344,6 +336,65 @@ def numbers_of(found: PositionSet) -> list[str]:
         return [words.fixed(p.at % period if period else p.at, 1) for p in found.every]
     factor = found.shown.alone.length(1.0) if sweep.is_length else 1.0
     return [words.decimal(f"{p.at * factor:.4g}") for p in found.every]
+
+
+class ValueRow(Struct, frozen=True):
+    """A row of values below the positions, with its symbol and unit."""
+
+    head: str
+    values: list[str]
+
+    @classmethod
+    def of(cls, head: str, values: Sequence[float | None], words: Words) -> ValueRow:
+        """A row of values with as many decimals as give the largest four digits."""
+        largest = max((abs(each) for each in values if each is not None), default=0.0)
+        places = max(3 - floor(log10(largest)), 0) if largest else 0
+        return cls(head, ["–" if each is None else words.fixed(each, places) for each in values])
+
+
+def travel_row(found: PositionSet) -> list[ValueRow]:
+    """The way of the follower from its low limit at every position, if it moves to and fro."""
+    travel, drawing = found.follower, found.shown.alone
+    if travel is None:
+        return []
+    some = [each.alone for each in found.every]
+    if travel.line is not None:
+        start, tip = travel.line
+        lines = (each.positions[tip] - each.positions[start] for each in some)
+        ways = [(degrees(phase(line)) - travel.low.value + BELOW) % TURN - BELOW for line in lines]
+        return [ValueRow.of(f"{drawing.symbol(f'ψ_{travel.name}')} (°)", ways, drawing.words)]
+    guides = [
+        guide.coordinate
+        for each in some
+        for guide in each.standing.guideways
+        if guide.block == travel.name
+    ]
+    if len(guides) < len(some):
+        return []
+    ways = [drawing.length(float(each) - travel.low.value) for each in guides]
+    head = f"{drawing.symbol(f's_{travel.name}')} ({drawing.scene.units['length']})"
+    return [ValueRow.of(head, ways, drawing.words)]
+
+
+def plan_rows(found: PositionSet, kind: str) -> Iterator[ValueRow]:
+    """The sizes of the vectors and rates asked of a kind of plan, at every numbered position."""
+    plans = [each.plans.get(kind) for each in found.numbered]
+    drawing, scene = next(filter(None, plans)), found.cycle.scene
+    for quantity in (drawing.vector, drawing.rate):
+        for name in names_asked(scene.ask, quantity):
+            own = point_of(scene, name) if quantity is drawing.vector else name
+            values = [None if plan is None else value_in(plan, quantity, own) for plan in plans]
+            sign = drawing.symbol(f"{quantity.letter}_{lettered(own)}")
+            head = f"{sign} ({drawing.words.unit(quantity.caret_unit)})"
+            yield ValueRow.of(head, values, drawing.words)
+
+
+def value_in(drawing: Drawing, quantity: MotionQuantity, of: str) -> float | None:
+    """The size of a vector, or a rate with its sign, in one plan."""
+    if quantity is drawing.rate:
+        return drawing.turning(of)
+    value = drawing.trace.value(quantity.target, of)
+    return None if value is None else abs(value)
 
 
 def at_position(name: str, number: str) -> str:

@@ -25,6 +25,7 @@ from graphkin.documents.positions import (
     at_position,
     is_whole,
     numbers_of,
+    plan_rows,
 )
 from graphkin.documents.positions_sheet import (
     MANY,
@@ -84,7 +85,9 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
         *marks,
         *foot_line(found),
         *places_table(
-            found, found.numbered, [*scale_lines(found, kind), *exceptions(found, drawing, marks)]
+            *(found, found.numbered),
+            [*scale_lines(found, kind), *exceptions(found, drawing, marks)],
+            [*plan_rows(found, kind)],
         ),
         *proof(found),
     ]

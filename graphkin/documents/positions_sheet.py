@@ -36,9 +36,11 @@ from graphkin.construction.links.mechanism_symbols import (
 from graphkin.documents.positions import (
     Position,
     PositionSet,
+    ValueRow,
     at_position,
     is_whole,
     numbers_of,
+    travel_row,
 )
 from graphkin.documents.sheet import (
     LETTERS,
@@ -75,8 +77,8 @@ from graphkin.motion.follower_limits import Follower
 from graphkin.scene.model import FRAME
 from graphkin.text.errors import PageError
 
-AROUND, OVER = 22.0, 17.0
-"""Room at the sides of the drawing, and above and below it, for numbers and the stroke, in mm."""
+AROUND, OVER = 22.0, 13.0
+"""Room at the sides of the drawing, and above and below it, for numbers, in mm."""
 DOT, FINE_DOT = 0.7, 0.5
 """Radius of a numbered pin in mm, and where many are drawn."""
 CROWD = 80
@@ -85,6 +87,8 @@ MANY = 16
 """Number of positions from which numbers are as small as lettering allows."""
 ASIDE, BEYOND = 13.0, 1.5
 """Distance of the stroke's dimension from the path, and length of extension lines beyond it, mm."""
+STROKE_ROOM = ASIDE + 1.0
+"""Distance from the path at which the dimension of the stroke needs room, in mm."""
 SHARE = 0.45
 """Radius of the arc of a swing, as a share of the link."""
 TRIES = 18
@@ -114,10 +118,13 @@ def positions_page(found: PositionSet, number: str) -> Page:
         *letters,
         *numerals,
         *foot_line(found),
-        *places_table(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
+        *places_table(
+            *(found, found.every, legend(found, whole=is_whole_set(numbers, numerals))),
+            travel_row(found),
+        ),
         *proof(found),
     ]
-    title = f"{title_of(drawing)} – {words('sheet.positions')}"
+    title = f"{words('sheet.positions')} – {title_of(drawing)}"
     kind, scale = document(drawing, "mechanism"), words.decimal(drawing.scales.words)
     return framed(drawing, number, kind, scale, marks, title)
 
@@ -188,11 +195,30 @@ def at_scale(found: PositionSet) -> Position:
     left, top, right, low = field_on(found)
     wide, high = right - left - 2 * AROUND, low - top - 2 * OVER
     least = 1000 * max(whole.width / wide, whole.height / high)
-    kL = next(preferred_scales(least))
+    drawn = (scaled(found.shown.alone, kL) for kL in preferred_scales(least))
+    drawing = next(each for each in drawn if has_room_for_stroke(found, each))
     stated = found.cycle.scene.sheet.scale
     own = float(stated.number(found.cycle.scene.values)) if stated is not None else 0.0
-    scales = Scales(own if own >= least else kL, 1.0)
-    return replace(found.shown, alone=replace(found.shown.alone, scales=scales))
+    if own >= least:
+        drawing = scaled(drawing, own)
+    return replace(found.shown, alone=drawing)
+
+
+def scaled(drawing: Drawing, kL: float) -> Drawing:
+    """A mechanism at a scale."""
+    return replace(drawing, scales=Scales(kL, 1.0))
+
+
+def has_room_for_stroke(found: PositionSet, drawing: Drawing) -> bool:
+    """Whether the stroke of a block has room for its dimension on the outer side of its path."""
+    field = field_of(found, drawing)
+    path = stroke_of(found, drawing, field)
+    if path is None:
+        return True
+    low, high, along = path
+    sides = [across(low, along, distance(low, high) / 2, side * STROKE_ROOM) for side in (1, -1)]
+    outer = max(sides, key=lambda at: dist(at, centre(field.rect)))
+    return inside(outer, field.rect)
 
 
 def field_of(found: PositionSet, drawing: Drawing) -> Field:
@@ -483,18 +509,27 @@ def direction(angle: float) -> XY:
     return cos(radians(angle)), -sin(radians(angle))
 
 
-def block_ends(
-    board: FieldContent, found: PositionSet, field: Field
-) -> tuple[XY, XY, XY, XY] | None:
-    """The ends of a block's stroke on its path, and those of its dimension line beside it."""
-    travel, drawing = found.follower, found.shown.alone
-    assert travel is not None
+def stroke_of(found: PositionSet, drawing: Drawing, field: Field) -> tuple[XY, XY, XY] | None:
+    """The ends of the stroke of a block on the frame, and its direction; None without any."""
+    travel = found.follower
+    if travel is None or travel.line is not None:
+        return None
     way = next((w for w in drawing.standing.guideways if w.block == travel.name), None)
     if way is None or way.slide.on != FRAME:
         return None
     start = way.at + (travel.low.value - way.coordinate) * way.along
     end = way.at + (travel.high.value - way.coordinate) * way.along
-    first, last, along = field(start), field(end), field.way(way.along)
+    return field(start), field(end), field.way(way.along)
+
+
+def block_ends(
+    board: FieldContent, found: PositionSet, field: Field
+) -> tuple[XY, XY, XY, XY] | None:
+    """The ends of a block's stroke on its path, and those of its dimension line beside it."""
+    path = stroke_of(found, found.shown.alone, field)
+    if path is None:
+        return None
+    first, last, along = path
     lines = struck_lines(board)
     sides = [side * (ASIDE + 6 * i) for i in range(TRIES) for side in (1, -1)]
 
@@ -552,9 +587,15 @@ PROOF = 4.0
 
 
 def places_table(
-    found: PositionSet, some: Sequence[Position], said: Sequence[str]
+    found: PositionSet,
+    some: Sequence[Position],
+    said: Sequence[str],
+    more: Sequence[ValueRow] = (),
 ) -> Iterator[Mark]:
-    """The numbers of some positions above the places of the driver there, and sentences below."""
+    """The numbers of some positions above the places of the driver there, and sentences below.
+
+    ``more`` are rows of values that are shown where there is room.
+    """
     words, sweep = found.shown.alone.words, found.cycle.sweep
     left, top, right, foot = found.shown.alone.paper.leaf.notes
     top += 4
@@ -573,11 +614,18 @@ def places_table(
     count = min(count, max(int(room / (2 * own + gap)), 1))
     per = -(-len(names) // count)
     width = (right - left - FIRST) / per
+    whole = [(words("positions.number"), names), (head_of, values)]
+    if count == 1 and own == ROW:
+        least = width - PAD
+        wide = (max(extent(each, 2.5)[0] for each in row.values) for row in more)
+        some_rows = [row for row, each in zip(more, wide, strict=True) if each <= least]
+        free = int((room - gap) / ROW) - len(whole)
+        whole += [(row.head, row.values) for row in some_rows[:free]]
     small = width < widest or own < ROW
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
-        begin = top + k * (2 * own + gap)
-        rows = ((words("positions.number"), names[row]), (head_of, values[row]))
+        begin = top + k * (len(whole) * own + gap)
+        rows = [(first, texts[row]) for first, texts in whole]
         end = left + FIRST + width * len(names[row])
         yield box(left, begin, end - left, own, "shade")
         for i, (first, texts) in enumerate(rows):
@@ -588,11 +636,11 @@ def places_table(
                 x = left + FIRST + width * (j + 0.5)
                 height = 1.8 if small else 2.5
                 yield Text(x, base, text, "table", height, "middle", "positions")
-        for i in range(3):
+        for i in range(len(rows) + 1):
             yield LineMark(left, begin + i * own, end, begin + i * own, "panel")
         for x in (left, *(left + FIRST + width * j for j in range(len(names[row]) + 1))):
-            yield LineMark(x, begin, x, begin + 2 * own, "panel")
-    low = top + count * (2 * own + gap) + 3.5
+            yield LineMark(x, begin, x, begin + len(rows) * own, "panel")
+    low = top + count * (len(whole) * own + gap) + 3.5
     for i, line in enumerate(lines):
         yield Text(left, low + 4.2 * i, line, "caption", 2.5, name="legend")
 

@@ -24,7 +24,15 @@ from graphkin.construction.core.kind import GivenVector, construction
 from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of, segment_of, sense
 from graphkin.construction.core.program import Part, Step, plan_vector, sign_of
-from graphkin.construction.core.quantities import BY_TARGET, FORCE, Whose, names_asked
+from graphkin.construction.core.quantities import (
+    BY_TARGET,
+    FORCE,
+    SHEETS,
+    STROKE,
+    TIME_RATIO,
+    Whose,
+    names_asked,
+)
 from graphkin.construction.core.relation import (
     Relation,
     VectorEquation,
@@ -46,6 +54,8 @@ from graphkin.construction.result_tables import slide_sense, slides_asked
 from graphkin.construction.velocity.relative_motion import as_relation
 from graphkin.construction.velocity.turned_vectors import TurnedAcceleration, TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
+from graphkin.mechanism import Mechanism
+from graphkin.motion.travel import travels
 from graphkin.numbers.plane import Ratio, Vector
 from graphkin.scene.findings import natural
 from graphkin.scene.link_points import lettered
@@ -212,7 +222,27 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     used = dict.fromkeys(ends for _, found in own for each in found for ends in each.over)
     lengths = of_lengths(first, [ends for ends in used if ends not in after])
     found = [*sections, ("turned", list(of_rolled_turns(first))), *lengths, *own]
+    found.append(("travel", list(of_travel(first))))
     return [(name, [in_results(first, each) for each in some]) for name, some in once(found)]
+
+
+def of_travel(drawing: Drawing) -> Iterator[Relation]:
+    """The strokes, swings and time ratios that are asked, from the dead positions."""
+    words = drawing.words
+    for (target, name), found in travels(Mechanism(drawing.scene)).items():
+        quantity, travel = BY_TARGET[target], found.follower
+        sign = drawing.symbol(f"{quantity.letter}_{name}")
+        if quantity is TIME_RATIO:
+            assert travel.strokes is not None
+            slow, fast = (f"{words.fixed(angle, 1)}°" for angle in travel.strokes)
+            remark = words("calculation.stroke_angles")
+            result = words.significant(found.value)
+            yield Relation(sign, figures=f"{slow} : {fast}", result=result, remark=remark)
+            continue
+        unit = drawing.scene.units["length"] if quantity is STROKE else quantity.unit
+        size = drawing.length(found.value) if quantity is STROKE else found.value
+        remark = words("calculation.dead_positions")
+        yield Relation(sign, result=words.significant(size), unit=unit, remark=remark)
 
 
 def once(sections: Iterable[Section]) -> Iterator[Section]:
@@ -485,6 +515,8 @@ def answers(drawing: Drawing) -> Iterator[Relation]:
         size = drawing.settled(abs(value))
         way = slide_sense(drawing, block, value) if size else ""
         yield Relation(slid, result=words.significant(size), unit=vector.caret_unit, remark=way)
+    if drawing.kind == SHEETS[0]:
+        yield from of_travel(drawing)
     for whose in ("links", "points"):
         yield from (place for place in of_centres(drawing, whose) if place.blank)
 

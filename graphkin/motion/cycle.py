@@ -51,6 +51,8 @@ LISTED = 6
 """The most ranges listed in a message."""
 NUMBERED = 4
 """Rows of a cycle in which the residual check numbers closures."""
+HELD = 1e-6
+"""Distance beyond a piece, as a share of the range, at which a position still counts to it."""
 FOLLOWED = 720
 """Parts of a range in which links are followed that the program does not count."""
 FULL = 10_000_000
@@ -165,6 +167,21 @@ class Cycle(Struct, frozen=True, eq=False, dict=True):
         target = "axis", link
         axes = columns_at(self.sweep, self.path, self.at, [target]).columns[target]
         return np.asarray(np.angle(axes))
+
+    def piece_at(self, place: float) -> tuple[Piece, float]:
+        """The piece of the scene's range that holds a u, and that u within the piece."""
+        slack = HELD * (self.ranges[0][1] - self.ranges[0][0])
+        for piece in self.path.ranges[0]:
+            for shift in self.path.shifts(place):
+                u = place + shift
+                if piece.low.at - slack <= u <= piece.high.at + slack:
+                    return piece, min(max(u, piece.low.at), piece.high.at)
+        raise ValueError(place)
+
+    def mechanism_at(self, place: float) -> Mechanism:
+        """The mechanism at a u of the scene's range."""
+        piece, within = self.piece_at(place)
+        return piece.course.mechanism(within)
 
     def along(self, at: Sequence[float] | Reals) -> Cycle:
         """The cycle at other values of u, without those that have no motion."""

@@ -33,7 +33,7 @@ def equal_places(
 
     ``start`` may be a u itself. ``dead`` starts at the dead point that begins the range, or where
     the last follower that reverses has its low limit. Raises SceneError, about ``place``, if there
-    is neither.
+    is neither, or if no position lies in the range.
     """
     low, high = cycle.ranges[0]
     whole = cycle.path.whole and cycle.path.returns
@@ -47,7 +47,17 @@ def equal_places(
     first = cycle.path.found_at(first, low, high)
     numbers = np.arange(-count, count + 1)
     at = first + step * numbers
-    return np.asarray(at[(at >= low - ALIKE * step) & (at <= high + ALIKE * step)], float)
+    at = at[(at >= low - ALIKE * step) & (at <= high + ALIKE * step)]
+    if not at.size:
+        unit = cycle.sweep.unit
+        raise SceneError.at(
+            place,
+            message("the first position lies far outside the range of the driver"),
+            message(
+                "a position from {low:.4g} to {high:.4g} {unit}", low=low, high=high, unit=unit
+            ),
+        )
+    return np.asarray(at, float)
 
 
 def dead_point(cycle: Cycle, place: str) -> float:

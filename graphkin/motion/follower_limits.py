@@ -74,11 +74,16 @@ class Follower(Struct, frozen=True):
     dwells: tuple[Dwell, ...] = ()
 
     @property
-    def time_ratio(self) -> float | None:
-        """The slower stroke over the faster, for a driver at constant speed."""
+    def strokes(self) -> tuple[float, float] | None:
+        """The driver angles of the slower and of the faster stroke."""
         if self.rising is None or self.falling is None:
             return None
-        return max(self.rising, self.falling) / min(self.rising, self.falling)
+        return max(self.rising, self.falling), min(self.rising, self.falling)
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The slower stroke over the faster, for a driver at constant speed."""
+        return None if self.strokes is None else self.strokes[0] / self.strokes[1]
 
     @property
     def extent(self) -> float:

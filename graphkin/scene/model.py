@@ -523,7 +523,7 @@ class Ask(Struct, frozen=True):
 
     ``pairs`` are two links with a dash, such as ``2-4``, whose relative centre is requested. They
     are in the order of the scene, with the frame first. ``curves`` are points whose paths are
-    requested.
+    requested. ``strokes`` are blocks whose stroke, and links whose swing is requested.
     """
 
     velocity: PointNames = ()
@@ -539,6 +539,8 @@ class Ask(Struct, frozen=True):
     inflection: LinkNames = ()
     curvature: PointNames = ()
     curves: PointNames = ()
+    strokes: LinkNames = ()
+    time_ratios: LinkNames = ()
 
     @property
     def anything(self) -> bool:

@@ -33,6 +33,7 @@ from graphkin.studio.guard import FRAMED, Guard, new_token
 from graphkin.studio.look import spoken_in
 from graphkin.studio.session import (
     MOST_BYTES,
+    MOVING,
     OPENED,
     Opened,
     PageRequest,
@@ -110,6 +111,7 @@ def page(opened: Opened, words: Words) -> str:
         spoken=spoken,
         language=words.language,
         views=VIEWS,
+        moving=MOVING,
         version=__version__,
         name=opened.name,
         mark=opened.mark,

@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import unified_diff
 from fractions import Fraction
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from threading import Condition, Lock
@@ -20,7 +21,7 @@ from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.classroom.lab.new_lab import START, rules_for
 from graphkin.classroom.sheet_files import hand_out_page, sheet_files
 from graphkin.construction.core.quantities import SHEETS
-from graphkin.documents import VIEWS
+from graphkin.documents import MOTION_VIEWS, VIEWS
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.expression import TIME
@@ -404,6 +405,10 @@ def language_in(order: PageRequest) -> str:
     return order.choice("language", LANGUAGES)
 
 
+MovingPage = Callable[[Mechanism, str, str, int | None], str]
+"""A page of a moving mechanism, from the stem of its files, its language and the moved driver."""
+
+
 def with_curves(mechanism: Mechanism, stem: str, language: str, driver: int | None) -> str:
     """The page of a cycle, with one driver moving or all drivers moving with the time."""
     from graphkin.motion.cycle import cycle
@@ -419,7 +424,18 @@ def step_by_step(mechanism: Mechanism, stem: str, language: str, driver: int | N
     return hand_out_page(mechanism, stem, stem, language=language)
 
 
-MOVING_PAGES = {"curves": with_curves, "steps": step_by_step}
+def all_sheets(
+    view: str, mechanism: Mechanism, stem: str, language: str, driver: int | None
+) -> str:
+    """The page of all sheets of a view of the whole motion."""
+    return hand_out_page(mechanism, stem, stem, view, language)
+
+
+MOVING_PAGES: Mapping[str, MovingPage] = {
+    "curves": with_curves,
+    "steps": step_by_step,
+    **{view: partial(all_sheets, view) for view in MOTION_VIEWS},
+}
 MOVING = tuple(MOVING_PAGES)
 
 
@@ -640,7 +656,7 @@ class Session:
         return or_problems(drawn, text, language, sheets=[])
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
-        """The address of a moving page of a mechanism: with curves, or step by step."""
+        """The address of a page of the motion: with curves, step by step, or of all sheets."""
         text, stem = order.scene(), stem_of(order.text("name"))
         language, kind = language_in(order), order.choice("page", MOVING)
         settings, driver = order.settings(), order.number("driver")

@@ -43,7 +43,8 @@ def paper_page(pages: Sequence[Page], ink: Ink) -> str:
     from markupsafe import Markup
 
     links = "".join(
-        f'<a href="#sheet-{place}">{escape(page.title)}</a>' for place, page in enumerate(pages, 1)
+        f'<a href="#sheet-{place}">{place}. {escape(page.title)}</a>'
+        for place, page in enumerate(pages, 1)
     )
     head = f"<nav>{links}</nav>\n" if len(pages) > 1 else ""
     body = "".join(picture(page, place) for place, page in enumerate(pages, 1))

@@ -327,6 +327,18 @@ def test_diagrams_stay_on_the_page_in_every_language(name: str, language: str):
         assert page.lang == language
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_sentences_of_a_sheet_end_above_the_residual_check(language):
+    """Also the long ones on tangents, which German needs nine lines for."""
+    mechanism = mechanism_named("shaper")
+    for pages in sheets_of(mechanism, language).values():
+        for page in pages:
+            texts = [mark for mark in page.marks if isinstance(mark, Text)]
+            (proof,) = (text.y for text in texts if text.name == "witness")
+            said = [text.y for text in texts if text.name == "sentence"]
+            assert max(said, default=0.0) < proof - 2.3
+
+
 def test_a_point_that_keeps_its_line_has_no_hodograph():
     """Only the pump's piston D is asked: its velocity is a line; A's keeps its length."""
     page, _ = sheets_of(load("pump"))["hodographs"]

@@ -8,6 +8,7 @@ from functools import cache
 from itertools import pairwise
 from math import cos, hypot, radians, sin, sqrt
 
+import numpy as np
 import pytest
 from msgspec.structs import replace
 
@@ -18,7 +19,7 @@ from graphkin.drawing.scale import Extent
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
 from graphkin.motion.equal_positions import equal_places
-from graphkin.scene.model import StatedPositions
+from graphkin.scene.model import Ask, StatedPositions
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import SceneError
@@ -336,3 +337,37 @@ def test_data_are_the_numbers_of_the_strong_position(view: str):
         data = [m.markup for m in part.pages[0].marks if isinstance(m, Text) and m.name == "data"]
         assert "44°" in data
         assert not any("*n*)" in each for each in data)
+
+
+def rows_of(page: Page) -> dict[str, list[str]]:
+    """The rows of the table of positions: their values by their heads."""
+    texts = [mark for mark in page.marks if isinstance(mark, Text) and mark.name == "positions"]
+    rows: dict[float, list[Text]] = {}
+    for text in texts:
+        rows.setdefault(text.y, []).append(text)
+    ordered = [sorted(row, key=lambda text: text.x) for row in rows.values()]
+    return {row[0].markup: [text.markup for text in row[1:]] for row in ordered}
+
+
+def test_the_tables_have_the_way_and_the_asked_values_at_every_position():
+    """s = x − x_min by the closed form, and the sizes that the mechanism set there gives."""
+    r, rod, e = 2.0, 5.0, 1.0
+    scene = slider_crank(r, rod, e, angle=17).scene
+    mechanism = Mechanism(replace(scene, ask=Ask(velocity=("B",))))
+    found = pages(mechanism)
+    places = cycle(mechanism, steps=12).along(17 + 30.0 * np.arange(12)).solution
+    way = rows_of(found["mechanism"])["*s*_{3} (m)"][:12]
+    least = sqrt((rod - r) ** 2 - e**2)
+    for i, text in enumerate(way):
+        phi = radians(17 + 30 * i)
+        x = r * cos(phi) + sqrt(rod**2 - (e - r * sin(phi)) ** 2)
+        assert float(text) == pytest.approx(x - least, abs=6e-4)
+    speeds = rows_of(found["velocity"])["*v*_{B} (m/s)"]
+    for text, speed in zip(speeds, np.abs(places.points["B"].velocity), strict=True):
+        assert float(text) == pytest.approx(speed, rel=6e-3, abs=6e-3)
+
+
+def test_a_table_without_room_has_the_positions_alone():
+    """48 positions take all rows; no row of values is cut off."""
+    heads = {*rows_of(pages(posed(mechanism_named("shaper"), count=48))["velocity"])}
+    assert heads == {"position", "*φ* (°)"}

@@ -19,7 +19,7 @@ from graphkin.classroom.lab.lab_model import NAMES as CAUSES
 from graphkin.cli.main import app
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import variant
-from graphkin.construction.core.quantities import CENTRES, OnPaper, in_mm
+from graphkin.construction.core.quantities import CENTRES, STROKE, OnPaper, in_mm
 from graphkin.construction.registry import BOARD, PALETTE
 from graphkin.construction.result_tables import WIDTHS
 from graphkin.documents import VIEWS
@@ -266,6 +266,7 @@ TELLING = (
     *("stephenson-2-ternary", "cam-plate", "four-bar with all its centres"),
     *("pinion-driven-by-a-rack", "cam-rocker", "roller-plates", "trammel with all its centres"),
     *("coupler point with its centre of curvature", "slider-crank with centres of curvature"),
+    *("strokes-of-lever-and-ram", "stroke-of-a-ram"),
 )
 """Scenes that say all that any says but for plates-ring; all others come after them."""
 
@@ -295,6 +296,7 @@ def test_every_sentence_is_used():
     waiting -= {f"screen.{kind}" for kind in WIDTHS}
     waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
     waiting -= {f"legend.{each.target}" for each in CENTRES}
+    waiting -= {f"sheet.{STROKE.kind}"}
     assert waiting >= RARELY_SAID
     waiting -= RARELY_SAID
     for name in dict.fromkeys((*TELLING, "plates-ring", *RARE, *OTHERS, *CHOSEN)):

@@ -50,6 +50,13 @@ def test_without_a_dead_point_none_can_be_the_start():
         equal_positions(cycle(four_bar(90, 70, 100, 40), steps=12), 8, "dead")
 
 
+def test_positions_far_outside_the_range_are_refused():
+    """A crank longer than its rod allows moves over some degrees, far from the scene's own angle."""
+    moved = cycle(slider_crank(20, 5, 3, angle=136), steps=12)
+    with pytest.raises(SceneError, match="outside the range of the driver"):
+        equal_positions(moved, 12)
+
+
 def test_a_workbook_holds_the_tables_and_depends_on_no_clock(run: Run, tmp_path: Path):
     options = ("--steps", 4, "--positions", 3, "--format", "csv,xlsx")
     result = run("cycle", "offset-slider-crank", "-o", tmp_path, *options)

@@ -14,7 +14,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from graphkin.classroom.sheet_files import hand_out_page
 from graphkin.construction.core.drawn_scene import METRES
+from graphkin.documents import MOTION_VIEWS
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
 from graphkin.scene import scene_files
@@ -217,6 +219,23 @@ def test_a_page_that_moves_stands_within_the_page_and_reaches_nothing(served):
     answer, _ = asked(served, "GET", f"/{found['page']}")
     assert answer.status == 403
     broken = json.dumps({"text": PUMP.replace("O1-A = 30", "O1-A = 300"), "page": "steps"})
+    assert json.loads(asked(served, "POST", "motion", broken, **JSON)[1])["problems"]
+
+
+@pytest.mark.parametrize("view", MOTION_VIEWS)
+def test_sheets_of_the_whole_motion_are_shown_as_the_command_draws_them(served, view):
+    """Positions and diagrams are pages of the motion, the same as those of ``graphkin sheet``."""
+    text = Path(scene_files.find("offset-slider-crank")).read_text(encoding="utf-8")
+    order = json.dumps(
+        {"text": text, "name": "crank.toml", "page": view, "language": "en", "settings": {"n": "9"}}
+    )
+    found = json.loads(asked(served, "POST", "motion", order, **JSON)[1])
+    answer, data = asked(served, "GET", found["page"])
+    mechanism = Mechanism(read_text(text, "crank", None, {"n": 9}))
+    assert data.decode() == hand_out_page(mechanism, "crank", "crank", view, "en")
+    assert answer.status == 200
+    assert data.count(b"<svg") >= 3
+    broken = json.dumps({"text": text.replace('O-A = "r"', "O-A = 900"), "page": view})
     assert json.loads(asked(served, "POST", "motion", broken, **JSON)[1])["problems"]
 
 

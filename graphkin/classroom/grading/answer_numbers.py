@@ -146,6 +146,7 @@ RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹\u2212", "+-0123456789-
 LETTERS = {
     "omega": ("omega", "ω", "w"),
     "epsilon": ("epsilon", "ε", "eps", "alpha", "α"),
+    "swing": ("swing", "psi", "ψ"),
 }
 """How the names of quantities may begin in a cell; others by the letter that fields begin with."""
 BLANKS = ("-", "–", "—", "--", "n/a", "n.a.", "na")
@@ -198,6 +199,8 @@ UNITS: dict[str, dict[str, float]] = {
     },
     "N": {"N": 1, "kN": 1000},
     "N·m": {"N·m": 1, "Nm": 1, "kN·m": 1000, "kNm": 1000, "N·mm": 0.001, "Nmm": 0.001},
+    "°": {"°": 1, "deg": 1, "rad": 180 / pi},
+    "in": {each: float(size) for each, size in LENGTHS.items()},
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
 """For each field's unit, the factors that convert the units students may write."""

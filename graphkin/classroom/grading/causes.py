@@ -17,6 +17,7 @@ from msgspec.structs import astuple, replace
 
 from graphkin.accuracy.pencil import (
     SCALES,
+    STRAIGHT,
     Paper,
     Pencil,
     PencilMark,
@@ -24,6 +25,7 @@ from graphkin.accuracy.pencil import (
     marked,
     together,
 )
+from graphkin.classroom.grading.end_positions import round_the_turn
 from graphkin.classroom.grading.standard import FormLayout, Standard, ruler_unit
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.component import component_of
@@ -50,6 +52,8 @@ UNITS = {"rpm_as_rad": 30 / pi, "turns_as_rad": 1 / (2 * pi)}
 MILLIMETRES = {-1: "velocities", -2: "accelerations"}
 """In place of a step's number: the plan a millimetre of which is meant."""
 OF_VELOCITIES, OF_ACCELERATIONS = MILLIMETRES
+TURNED = 180
+"""The positions in a turn by which the travel of a follower is found with a change."""
 RAD_AS_RPM = pi / 30
 """The factor on a crank's speed where rad/s are taken for rev/min."""
 
@@ -421,8 +425,32 @@ class Variants(Struct, frozen=True, dict=True):
 
     def changed(self, change: Change) -> dict[int, Value] | None:
         """The values of the steps that a change moves; None where nothing can be drawn."""
+        found = self.moved(change, self.layout.needed, {})
+        return found if found is None else {**found, **self.travel_with(change)}
+
+    def travel_with(self, change: Change) -> Mapping[int, Value]:
+        """The strokes, swings and time ratios with a change, over a whole turn of the driver."""
+        layout, touched = self.layout, {*change.mends, *change.steps}
+        again: dict[int, Value] = {}
+        for field, places in layout.places.items():
+            begun = whole_turn(layout.program.drives[0])
+            some = layout.program.behind(places)
+            recurs = all(each.travel[field].recurs for each in self.standards)
+            if not recurs or self.closes or (touched - begun.keys()).isdisjoint(some):
+                continue
+            moved = self.moved(change, some, begun)
+            if moved is not None:
+                probe, shape = layout.by_field[field], (len(self.standards), TURNED)
+                rows = [np.broadcast_to(moved.get(n, self.values[n]), shape) for n in places]
+                again[probe.step] = round_the_turn(probe.item.quantity, rows)
+        return again
+
+    def moved(
+        self, change: Change, some: Sequence[int], begun: Mapping[int, Value]
+    ) -> dict[int, Value] | None:
+        """The values of some steps that a change moves, or that follow from others ``begun``."""
         steps, values = self.layout.program.steps, self.values
-        found: dict[int, Value] = {}
+        found = dict(begun)
 
         def get(number: int) -> Value:
             if number in MILLIMETRES:
@@ -431,7 +459,9 @@ class Variants(Struct, frozen=True, dict=True):
 
         try:
             with np.errstate(all="ignore"):
-                for number in self.layout.needed:
+                for number in some:
+                    if number in begun:
+                        continue
                     step = change.steps.get(number, steps[number])
                     moved = number in change.steps or not found.keys().isdisjoint(step.args)
                     if not moved and number not in change.mends:
@@ -514,6 +544,9 @@ class Variants(Struct, frozen=True, dict=True):
                 each = np.broadcast_to(value, (len(rows) * count,)).reshape(shape)
                 off = each - each[:, -1:]
                 deviations[:, place] = np.sqrt(np.sum(off * off, axis=1))
+        for field in self.standards[0].travel:
+            own = [self.standards[row].travel[field].pencil / STRAIGHT for row in rows]
+            deviations[:, self.fields.index(field)] = own
         return deviations
 
     @property
@@ -551,6 +584,13 @@ class Variants(Struct, frozen=True, dict=True):
                 value = marked(mark, value, start, errors, pencil, mm)
             found[number] = value
         return {**values, **found}
+
+
+def whole_turn(drive: Drive) -> dict[int, Value]:
+    """The steps of a driver that turns, in equal steps of a whole turn: (1, M)."""
+    angles = np.linspace(0.0, 2 * pi, TURNED, endpoint=False)[None]
+    begun: dict[int, Value] = {drive.position: turned_by(angles)}
+    return begun if drive.angle is None else {**begun, drive.angle: angles}
 
 
 def first_of(value: Value) -> Any:

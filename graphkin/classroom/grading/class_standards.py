@@ -13,13 +13,16 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.accuracy.pencil import Pencil, PencilMark, original
+from graphkin.accuracy.pencil import PencilMark
+from graphkin.classroom.grading.end_positions import travel_keys
 from graphkin.classroom.grading.standard import (
     FormLayout,
     Standard,
     alike,
     layout,
     pencil_errors,
+    pencil_of,
+    standard_at,
     with_force_scales,
 )
 from graphkin.classroom.lab.lab_model import Item, Rubric
@@ -84,7 +87,7 @@ def standards(
         single(mechanism, scale, shared, rubric, computed)
         for mechanism, scale, (_, computed) in zip(own, chosen, many, strict=True)
     ]
-    pencil = Pencil(rubric.point, rubric.line)
+    pencil = pencil_of(rubric)
     for places in blocks(found):
         errors = pencil_errors([found[i].readings for i in places], pencil)
         for i, each in zip(places, errors, strict=True):
@@ -117,9 +120,9 @@ def single(
     A variant whose steps differ gets its own layout.
     """
     whole = mechanism.with_forces
-    form = shared if whole.program is shared.program else layout(mechanism, shared.items)
-    exact = original(whole, chosen, form.targets)
-    return Standard(whole, chosen, form, exact, rubric, computed)
+    form = shared if whole.program is shared.drawn else layout(mechanism, shared.items)
+    keys = travel_keys(mechanism, form.items, chosen, pencil_of(rubric))
+    return standard_at(mechanism, chosen, form, rubric, computed, keys)
 
 
 # --- mechanisms and scales --------------------------------------------------------------------

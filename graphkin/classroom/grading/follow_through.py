@@ -80,7 +80,7 @@ def unit(standard: Standard, probe: Probe) -> float:
 
 def computed_first(standard: Standard, probe: Probe) -> Component | None:
     """The component computed before a field's vector is laid off; None where there is none."""
-    program = standard.mechanism.program
+    program = standard.layout.program
     for end in probe.steps:
         start, *rest = program.steps[end].args or (end,)
         for arg in rest if start in probe.steps else ():
@@ -120,7 +120,7 @@ class OwnLengths(Struct, frozen=True):
 
     def relations(self, probe: Probe) -> Iterator[FormRelation]:
         """Each relation that results in the field."""
-        step = self.standard.mechanism.program.steps[probe.step]
+        step = self.standard.layout.program.steps[probe.step]
         if probe.vector:
             component = computed_first(self.standard, probe)
             if probe.item.what == "value":
@@ -138,7 +138,7 @@ class OwnLengths(Struct, frozen=True):
 
         For an angular acceleration this is the tangential component.
         """
-        p, q, tail, tip = self.standard.mechanism.program.steps[probe.step].args
+        p, q, tail, tip = self.standard.layout.program.steps[probe.step].args
         bar = self.length(p, q)
         tails = {tail, self.standard.exact.tails.get(probe.step, tail)}
         if probe.item.quantity == EPSILON and len(tails) > 1:
@@ -160,7 +160,7 @@ class OwnLengths(Struct, frozen=True):
 
     def turnings_over(self, ends: tuple[int, ...]) -> Iterator[Own]:
         """The student's angular velocities read off the same points and images."""
-        steps = self.standard.mechanism.program.steps
+        steps = self.standard.layout.program.steps
         for field, omega in self.own.items():
             probe = self.standard.by_field[field]
             if probe.item.quantity == OMEGA and steps[probe.step].args == ends:
@@ -172,7 +172,7 @@ class OwnLengths(Struct, frozen=True):
             probe = self.standard.by_field[field]
             if probe.item.quantity == OMEGA and probe.step == rate:
                 yield value
-        args = self.standard.mechanism.program.steps[rate].args
+        args = self.standard.layout.program.steps[rate].args
         if len(args) == 4:
             bar = self.length(*args[:2])
             for v in self.vectors(*args[2:]):
@@ -181,7 +181,7 @@ class OwnLengths(Struct, frozen=True):
 
     def slidings(self, tail: int, tip: int) -> Iterator[Own]:
         """The sliding velocities: as answered, from vectors, then the key's."""
-        steps = self.standard.mechanism.program.steps
+        steps = self.standard.layout.program.steps
         for field, value in self.own.items():
             probe = self.standard.by_field[field]
             if probe.item.quantity == "slide speed" and steps[probe.step].args[1:] == (tail, tip):
@@ -343,7 +343,7 @@ def reruns(standard: Standard, overrides: Mapping[int, Any]) -> Iterator[Mapping
     yield found
     measured: dict[int, Any] = {}
     for number in standard.layout.needed:
-        component = component_of(standard.mechanism.program, number)
+        component = component_of(standard.layout.program, number)
         if component is not None and number not in overrides:
             vector = component.as_measured(found, values)
             measured |= {} if vector is None else {number: vector}
@@ -361,7 +361,7 @@ def closing(
     After a wrong length, a student measures this vector although its direction no longer fits.
     """
     probe = standard.by_field[field]
-    step = standard.mechanism.program.steps[probe.step]
+    step = standard.layout.program.steps[probe.step]
     turns = isinstance(step.of, TurningOfLink)
     if probe.vector or probe.item.what != "value" or not (turns or step.action is part_along):
         return
@@ -405,7 +405,7 @@ def components_with(standard: Standard, number: int, ratio: float) -> dict[int, 
 
     Components that use its step follow by themselves.
     """
-    program, values = standard.mechanism.program, standard.exact.trace.values
+    program, values = standard.layout.program, standard.exact.trace.values
     found: dict[int, Any] = {}
     for other in standard.layout.needed:
         component = component_of(program, other)

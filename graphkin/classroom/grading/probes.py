@@ -6,13 +6,13 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
-from msgspec import Struct
+from msgspec import Struct, structs
 
 from graphkin.accuracy.pencil import Paper
-from graphkin.classroom.lab.items import arrow_steps, motion_of
+from graphkin.classroom.lab.items import arrow_steps, is_of_travel, motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.kind import PlanPole, construction
-from graphkin.construction.core.program import Plane, Target
+from graphkin.construction.core.program import Part, Plane, Program, Step, Target
 from graphkin.construction.core.quantities import BY_TARGET, FORCES
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import Ratio
@@ -71,8 +71,10 @@ def probes(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Probe, ...]:
     """The probe of each item. Raises SceneError for all items that are not constructed."""
     found: list[Probe] = []
     problems: list[Problem] = []
-    for item in items:
-        probe = probe_of(mechanism, item)
+    form = tuple(items)
+    program = with_travel(mechanism.program, form)
+    for item in form:
+        probe = probe_of(mechanism, program, item)
         if probe is None:
             hint = message("graphkin solve shows what the construction has")
             problems.append(
@@ -85,9 +87,22 @@ def probes(mechanism: Mechanism, items: Iterable[Item]) -> tuple[Probe, ...]:
     return tuple(found)
 
 
-def probe_of(mechanism: Mechanism, item: Item) -> Probe | None:
+def with_travel(program: Program, items: Iterable[Item]) -> Program:
+    """The program with a step for each field that takes the whole motion.
+
+    Such a step has no action: its value is found from the dead positions.
+    """
+    some = [(item.quantity, item.of) for item in items if is_of_travel(item)]
+    if not some:
+        return program
+    first = len(program.steps)
+    steps = (*program.steps, *(Step(None, (), Part.RESULT, Plane.NUMBERS) for _ in some))
+    targets = {**program.targets, **{target: first + i for i, target in enumerate(some)}}
+    return structs.replace(program, steps=steps, targets=targets)
+
+
+def probe_of(mechanism: Mechanism, program: Program, item: Item) -> Probe | None:
     """The probe of one item; None where it is not constructed."""
-    program = mechanism.program
     if item.what == "place":
         number = program.targets.get((item.quantity, item.of))
         pivot = program.targets[("position", mechanism.scene.frame.points[0])]

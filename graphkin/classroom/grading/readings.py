@@ -31,7 +31,15 @@ from graphkin.classroom.grading.causes import (
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.quantities import BALANCING_MOMENT, EPSILON, OMEGA, RATES
+from graphkin.construction.core.quantities import (
+    BALANCING_MOMENT,
+    EPSILON,
+    OMEGA,
+    RATES,
+    STROKE,
+    SWING,
+    TIME_RATIO,
+)
 from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.numbers.arithmetic import np
 
@@ -103,8 +111,19 @@ class FormFields(Struct, frozen=True, dict=True):
 
     @cached_property
     def computed(self) -> Array:
-        """The vectors, rates, speeds, forces and moments that are computed."""
-        return self.those(lambda item: item.what == "value")
+        """The vectors, rates, speeds, forces, moments and strokes that are computed."""
+        angles = SWING, TIME_RATIO
+        return self.those(lambda item: item.what == "value" and motion_of(item) not in angles)
+
+    @cached_property
+    def strokes(self) -> Array:
+        """The strokes of blocks."""
+        return self.those(lambda item: motion_of(item) is STROKE)
+
+    @cached_property
+    def ratios(self) -> Array:
+        """The time ratios."""
+        return self.those(lambda item: motion_of(item) is TIME_RATIO)
 
     @cached_property
     def plans(self) -> Array:
@@ -415,7 +434,8 @@ def taken_in_full(form: FormFields) -> Reads:
 
 def of_units(form: FormFields) -> Iterator[Cause]:
     """A speed in another unit in the answers only, rates in degrees or turns, powers of ten."""
-    moving = form.computed & ~form.moments & (form.plans != SCALES.index(Plane.FORCES))
+    moving = form.computed & ~(form.moments | form.strokes)
+    moving &= form.plans != SCALES.index(Plane.FORCES)
     for name, ratio in speed_factors(form.variants.standards[0].mechanism).items():
         for way, power in (("once", 1), ("squared", 2)):
             factors = np.where(moving, ratio ** np.where(form.plans == 2, power, 1), 1.0)
@@ -491,8 +511,10 @@ def price_of(powers: Array) -> Array:
 
 
 def of_formulas(form: FormFields) -> Iterator[Cause]:
-    """Rates and components computed from another vector than the right one."""
+    """Rates and components computed from another vector than the right one; ratios turned over."""
     layout = form.variants.layout
+    if form.ratios.any():
+        yield reading("ratio_inverted", "", inverted(form.ratios))
     steps = layout.program.steps
     turns = [
         (place, steps[probe.step].args, probe.item.quantity)
@@ -556,6 +578,16 @@ def components_beside(form: FormFields) -> Iterator[tuple[int, int]]:
             alike = k > i and each.what == item.what and vector is not None
             if alike and vector is not None and vector.symbol == other:
                 yield i, k
+
+
+def inverted(mask: Array) -> Reads:
+    """Some fields written as their reciprocals."""
+
+    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+        with np.errstate(all="ignore"):
+            return Told(only(mask, 1 / shown, shown))
+
+    return reads
 
 
 def exchanged(pairs: list[tuple[int, int]]) -> Reads:

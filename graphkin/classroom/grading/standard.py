@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from math import hypot, inf, isfinite, nan, radians
 from typing import Any, NamedTuple
 
@@ -28,7 +29,13 @@ from graphkin.accuracy.pencil import (
     sources,
     together,
 )
-from graphkin.classroom.grading.probes import Probe, probes, targets_of
+from graphkin.classroom.grading.end_positions import (
+    TravelKey,
+    places_of,
+    travel_keys,
+    with_keys,
+)
+from graphkin.classroom.grading.probes import Probe, probes, targets_of, with_travel
 from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item, Rubric
 from graphkin.construction.core.program import Drive, Plane, Program, Target
@@ -66,11 +73,15 @@ class Tolerance(Struct, frozen=True):
 
 
 class Reading(Struct, frozen=True):
-    """A field of one construction, in the form of an answer for the pencil forecast."""
+    """A field of one construction, in the form of an answer for the pencil forecast.
+
+    A field that takes the whole motion has a ``key`` of its own.
+    """
 
     probe: Probe
     exact: Original
     value: float
+    key: TravelKey | None = None
 
     def error(self, found: Mapping[int, Any]) -> Any:
         """The errors of the field in some drawings."""
@@ -217,6 +228,8 @@ def ruler_unit(reading: Reading) -> float:
     probe, exact = reading.probe, reading.exact
     if probe.item.unit == "mm":
         return 1.0
+    if reading.key is not None:
+        return reading.key.millimetre
     if motion_of(probe.item) is BALANCING_MOMENT:
         return 0.0
     mm = exact.paper.millimetre(probe.plane)
@@ -268,13 +281,16 @@ class Expectation:
 class FormLayout(Struct, frozen=True, dict=True):
     """How the fields of a form are read off a construction; variants of a program share it.
 
-    ``targets`` are what must be constructed for these fields.
+    ``targets`` are what must be constructed for these fields. ``drawn`` is the program without the
+    steps of fields that take the whole motion; ``places`` are the steps that these fields follow.
     """
 
     program: Program
     items: tuple[Item, ...]
     probes: tuple[Probe, ...]
     targets: tuple[Target, ...]
+    drawn: Program
+    places: Mapping[str, tuple[int, ...]] = {}
 
     @cached_property
     def by_field(self) -> Mapping[str, Probe]:
@@ -284,7 +300,8 @@ class FormLayout(Struct, frozen=True, dict=True):
     @cached_property
     def needed(self) -> tuple[int, ...]:
         """The steps that the fields depend on, composite ones by value."""
-        return self.program.behind(step for probe in self.probes for step in probe.steps)
+        read = (step for probe in self.probes for step in probe.steps)
+        return self.program.behind([*read, *chain(*self.places.values())])
 
     @property
     def has_forces(self) -> bool:
@@ -306,7 +323,13 @@ class FormLayout(Struct, frozen=True, dict=True):
 def layout(mechanism: Mechanism, items: Iterable[Item]) -> FormLayout:
     """How the fields are read off a mechanism's construction."""
     form, whole = tuple(items), mechanism.with_forces
-    return FormLayout(whole.program, form, probes(whole, form), targets_of(whole, form))
+    program = with_travel(whole.program, form)
+    followed = places_of(whole, form)
+    targets = dict.fromkeys((*targets_of(whole, form), *chain(*followed.values())))
+    places = {
+        field: tuple(program.targets[target] for target in some) for field, some in followed.items()
+    }
+    return FormLayout(program, form, probes(whole, form), (*targets,), whole.program, places)
 
 
 class Standard(Struct, frozen=True, dict=True):
@@ -324,6 +347,8 @@ class Standard(Struct, frozen=True, dict=True):
     computed: tuple[str, ...] = ()
     """The fields that are too small to measure."""
     errors: Errors | None = None
+    travel: Mapping[str, TravelKey] = {}
+    """The keys of the fields that take the whole motion."""
 
     @property
     def items(self) -> tuple[Item, ...]:
@@ -344,7 +369,10 @@ class Standard(Struct, frozen=True, dict=True):
     def readings(self) -> list[Reading]:
         """The fields except senses, each with its key."""
         return [
-            Reading(probe, self.exact, self.key[probe.item.field])
+            Reading(
+                *(probe, self.exact, self.key[probe.item.field]),
+                self.travel.get(probe.item.field),
+            )
             for probe in self.layout.probes
             if probe.item.what != "sense"
         ]
@@ -357,10 +385,10 @@ class Standard(Struct, frozen=True, dict=True):
     @cached_property
     def pencil(self) -> Errors:
         """The pencil's errors of the fields except senses."""
-        if self.errors is not None:
-            return self.errors
-        (found,) = pencil_errors([self.readings], Pencil(self.rubric.point, self.rubric.line))
-        return found
+        found = self.errors
+        if found is None:
+            (found,) = pencil_errors([self.readings], pencil_of(self.rubric))
+        return with_travel_errors(found, self.readings) if self.travel else found
 
     @cached_property
     def expectation(self) -> Expectation:
@@ -459,9 +487,38 @@ def standard(
     """The standard for the answers to a variant, at the scales of its sheets."""
     form = layout(mechanism, items)
     chosen = with_force_scales(mechanism, scales(mechanism), form)
+    keys = travel_keys(mechanism, form.items, chosen, pencil_of(rubric))
+    return standard_at(mechanism, chosen, form, rubric, tuple(computed), keys)
+
+
+def standard_at(
+    mechanism: Mechanism,
+    chosen: Scales,
+    form: FormLayout,
+    rubric: Rubric,
+    computed: tuple[str, ...],
+    keys: Mapping[str, TravelKey],
+) -> Standard:
+    """The standard of a variant whose scales and keys of the whole motion are known."""
     whole = mechanism.with_forces
     exact = original(whole, chosen, form.targets)
-    return Standard(whole, chosen, form, exact, rubric, tuple(computed))
+    exact = with_keys(exact, form.program, form.items, keys)
+    return Standard(whole, chosen, form, exact, rubric, computed, travel=keys)
+
+
+def pencil_of(rubric: Rubric) -> Pencil:
+    """The pencil whose errors a rubric forgives."""
+    return Pencil(rubric.point, rubric.line)
+
+
+def with_travel_errors(found: Errors, readings: Sequence[Reading]) -> Errors:
+    """The errors with those of the dead positions, which are drawings of their own."""
+    each, spread = [*found.each], np.array(found.together)
+    for place, reading in enumerate(readings):
+        if reading.key is not None:
+            each[place] = reading.key.pencil
+            spread[place, place] = (reading.key.pencil / STRAIGHT) ** 2
+    return Errors(tuple(each), spread)
 
 
 def with_force_scales(mechanism: Mechanism, chosen: Scales, form: FormLayout) -> Scales:

@@ -24,6 +24,10 @@ from graphkin.construction.core.quantities import (
     RATES,
     SHEETS,
     SLIDING,
+    STROKE,
+    SWING,
+    TIME_RATIO,
+    TRAVEL,
     VECTORS,
     MotionQuantity,
     names_asked,
@@ -33,6 +37,7 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.forces import Forces
 from graphkin.scene.link_points import lettered, point_of
+from graphkin.scene.model import Scene
 from graphkin.text import words
 from graphkin.text.school_signs import USUAL, SchoolSigns
 
@@ -110,8 +115,17 @@ def asked(mechanism: Mechanism) -> Iterator[Item]:
             own = point_of(scene, name) if quantity.whose == "points" else name
             if mechanism.gives((quantity.target, own)):
                 yield from place_items(quantity, own)
+    yield from travel_asked(scene)
     if forces is not None:
         yield from forces_asked(mechanism, forces)
+
+
+def travel_asked(scene: Scene) -> Iterator[Item]:
+    """The strokes, swings and time ratios that the scene asks for."""
+    for name in scene.ask.strokes:
+        yield travel_item(STROKE if scene.links[name].slides else SWING, name)
+    for name in scene.ask.time_ratios:
+        yield travel_item(TIME_RATIO, name)
 
 
 def forces_asked(mechanism: Mechanism, forces: Forces) -> Iterator[Item]:
@@ -216,6 +230,17 @@ def force_items(quantity: MotionQuantity, name: str, signs: SchoolSigns = USUAL)
     """A side of a polygon of forces and its force, or a balancing moment and its sense."""
     make = with_segment if quantity.sort == "vector" else with_sense
     yield from make(plain(name), symbol(name, signs=signs), quantity, name)
+
+
+def travel_item(quantity: MotionQuantity, of: str) -> Item:
+    """The stroke of a block, the swing of a link, or the time ratio of either."""
+    sign = symbol(f"{quantity.letter}_{of}")
+    return Item(f"{quantity.name}_{plain(of)}", "value", sign, quantity.unit, quantity.target, of)
+
+
+def is_of_travel(item: Item) -> bool:
+    """Whether a field takes the whole motion of a follower, not one position."""
+    return motion_of(item) in TRAVEL
 
 
 def place_items(quantity: MotionQuantity, of: str) -> Iterator[Item]:

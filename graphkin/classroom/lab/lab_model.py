@@ -82,6 +82,7 @@ GRADES: Mapping[str, str] = {
     "normal_for_tangential": "serious",
     "whole_for_tangential": "moderate",
     "absolute_for_relative": "moderate",
+    "ratio_inverted": "slight",
     "axes_swapped": "slight",
     "opposite": "slight",
     "answers_exchanged": "slight",
@@ -306,8 +307,9 @@ class Item(Struct, frozen=True, dict=True):
     @cached_property
     def one(self) -> float:
         """One of its unit as it is marked: in SI, but lengths on paper in mm."""
-        length, per, _ = self.unit.partition("/")
-        return float(LENGTHS[length]) if per and length in LENGTHS else 1.0
+        length = self.unit.partition("/")[0]
+        on_paper = self.unit == "mm"
+        return float(LENGTHS[length]) if length in LENGTHS and not on_paper else 1.0
 
     def beside(self, what: What, axis: str = "") -> str:
         """The name of another field of the same quantity."""

@@ -30,6 +30,7 @@ from graphkin.classroom.lab.items import (
     plain,
     rate_items,
     slide_items,
+    travel_item,
     vector_items,
 )
 from graphkin.classroom.lab.lab_model import (
@@ -57,6 +58,7 @@ from graphkin.construction.core.quantities import (
     FORCES,
     RATES,
     SHEETS,
+    TRAVEL,
     VECTORS,
     Whose,
 )
@@ -346,6 +348,8 @@ def examples() -> Iterator[Item]:
         yield from place_items(centre, names[centre.whose])
     for force, name in zip(FORCES, FORCE_NAMES, strict=True):
         yield from force_items(force, name)
+    for quantity in TRAVEL:
+        yield travel_item(quantity, names[quantity.whose])
     for quantity in VECTORS:
         for sign in ("", *COMPONENT) if quantity.kind == "acceleration" else ("",):
             yield from arrow_items(PlanVector(quantity.letter, "BA", sign=sign), quantity.unit)
@@ -363,7 +367,7 @@ def meaning(item: Item) -> str:
     if item.what == "place":
         way = "to the right" if item.axis == "x" else "up"
         return f"{of}: {item.axis} on paper from the first fixed pivot, {way}, {item.unit}"
-    return f"{of}, {item.unit}"
+    return f"{of}, {item.unit}" if item.unit else of
 
 
 def thing(item: Item) -> str:

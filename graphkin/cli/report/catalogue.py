@@ -18,6 +18,8 @@ ASKED = {
     **{q.asked_by[0]: f"{q.circle.words if q.circle else q.words}s of" for q in CENTRES[1:]},
     "centrodes": "centrodes of",
     "curves": "paths of",
+    "strokes": "strokes of",
+    "time_ratios": "time ratios of",
 }
 """What each key of [ask] asks for, in words."""
 

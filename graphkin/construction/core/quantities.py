@@ -42,8 +42,8 @@ PLANES[FORCE] = Plane.FORCES
 
 Whose = Literal["points", "links", "slides", "pairs"]
 """The owner of a quantity: the part of a solution that holds it."""
-Sort = Literal["vector", "number", "place", "centre"]
-"""The sort of a value: a vector of a plan, a number, a place, or a centre.
+Sort = Literal["vector", "number", "place", "centre", "travel"]
+"""The sort of a value: a vector of a plan, a number, a place, a centre, or of a whole motion.
 
 A centre is a place on the mechanism that may lie at infinity: a Ratio.
 """
@@ -205,10 +205,23 @@ FORCES = PAIR_REACTION, BALANCING_FORCE, BALANCING_MOMENT = (
     of_force("balancing moment", "number", "M", "N·m", "balance"),
 )
 """The quantities of the plan of forces, which only a scene with forces has."""
-BY_TARGET = {each.target: each for each in (*QUANTITIES, *FORCES)}
+
+
+def of_travel(target: str, whose: Whose, letter: str, unit: str, key: str) -> MotionQuantity:
+    """A quantity of the travel of a follower, which takes its whole motion."""
+    return MotionQuantity(target, whose, target, "position", "travel", letter, unit, target, (key,))
+
+
+TRAVEL = STROKE, SWING, TIME_RATIO = (
+    of_travel("stroke", "slides", "H", "m", "strokes"),
+    of_travel("swing", "links", "ψ", "°", "strokes"),
+    of_travel("time ratio", "links", "K", "", "time_ratios"),
+)
+"""The travel of followers between their dead positions: no plan of one position shows it."""
+BY_TARGET = {each.target: each for each in (*QUANTITIES, *FORCES, *TRAVEL)}
 ASKED = {
-    key: tuple(each for each in QUANTITIES if key in each.asked_by)
-    for key in dict.fromkeys(key for each in QUANTITIES for key in each.asked_by)
+    key: tuple(each for each in (*QUANTITIES, *TRAVEL) if key in each.asked_by)
+    for key in dict.fromkeys(key for each in (*QUANTITIES, *TRAVEL) for key in each.asked_by)
 }
 """The quantities that each key of [ask] asks for."""
 WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}

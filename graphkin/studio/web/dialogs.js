@@ -2,6 +2,7 @@
 
 import { picture } from "./build.js";
 import { sentence } from "./mistakes.js";
+import { sheetsShown } from "./motion.js";
 import { values } from "./sliders.js";
 import { ask, button, element, find, language, listed, say, tell } from "./talk.js";
 
@@ -123,6 +124,7 @@ export function saveSheets(fields, left) {
   said.textContent = "";
   find("saving-values").textContent = list && say("studio.drawn_for", { values: list });
   find("sheet-language").value = language;
+  find("view").value = sheetsShown() || find("view").value;
   find("saving-form").onsubmit = async event => {
     event.preventDefault();
     const formats = [...dialog.querySelectorAll("[name=formats]:checked")].map(box => box.value);

@@ -16,6 +16,13 @@ let shown = ""; // the request of the page shown
 /** Whether the motion is shown instead of the drawings. */
 export const inMotion = () => toggle.getAttribute("aria-pressed") === "true";
 
+/** The view of the sheets that the motion shows; empty for any other page. */
+export function sheetsShown() {
+  const page = find("motion-kind").elements.page.value;
+  const known = [...find("view").options].map(({ value }) => value);
+  return inMotion() && known.includes(page) ? page : "";
+}
+
 /** Set the scene of the motion, and the callback for opening it. */
 export function motionOf(fields, opened) {
   scene = fields;
