@@ -441,7 +441,7 @@ def free_factors(factors: Array, free: Array) -> Reads:
 def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
     """Answers off by powers of ten, the same power for all answers with one unit.
 
-    With ``whole``, the answers have lost their decimal point: each by its own digits.
+    With ``whole``, most answers have lost their decimal point: each by its own digits.
     """
     units = {item.unit for item in form.items if item.unit}
     every = np.array([item.unit for item in form.items])
@@ -456,7 +456,9 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             near = np.round(powers)
             fits = alike & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
         if whole:
-            shift = np.where(fits & view.whole & (near > 0), near, np.nan)
+            written = sized & ~np.isnan(view.answers)
+            most = 2 * (written & view.whole).sum(axis=1) > written.sum(axis=1)
+            shift = np.where(fits & view.whole & (near > 0) & most[:, None], near, np.nan)
             power = np.nan_to_num(shift)
             return Told(shown * 10.0**power, price=price_of(power))
         changed = shown

@@ -19,6 +19,7 @@ from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.class_report import result_lines
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.grading_files import cause_text
 from graphkin.classroom.grading.readings import FormFields
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.text import words
@@ -232,6 +233,43 @@ def test_each_plan_at_a_scale_of_its_own_is_one_cause():
     assert [cause.name for cause in graded.causes] == ["own_scale"]
     assert graded.share == Fraction("0.9")
     assert graded.mark("v_D_mm").by_cause is None  # it is the student's own, which proves nothing
+
+
+def test_two_causes_that_give_the_same_answers_are_both_named():
+    """The sheet is at 1:2: plans twice as large, and plans drawn in full, give the same answers."""
+    (graded, _), *_ = a_class("offset-slider-crank", CAUSES["plans of one's own scale"], 1, count=1)
+    (cause,) = graded.causes
+    assert {cause.name, cause.either} == {"own_scale", "drawn_in_full"}
+    text = notes(graded, words("en"))[0]
+    assert text.count("either") == 2 and "do not tell which" in text  # the cause, where it shows
+    assert "own_scale" in cause_text(cause) and "drawn_in_full" in cause_text(cause)
+
+
+def test_of_two_causes_that_may_be_meant_the_lower_deduction_is_made():
+    lab = lab_of("offset-slider-crank")
+    dearer = replace(lab.rubric, causes={**lab.rubric.causes, "drawn_in_full": "serious"})
+    book = Book(replace(lab, rubric=dearer), lab.scene.read_text("utf-8"))
+    marker = book.marker_of(taker(7))
+    found = {"own_scale": "", "drawn_in_full": "own_scale"}
+    for name, either in found.items():
+        assert marker.share(name, either) == Fraction(str(dearer.cost("own_scale")))
+    assert marker.share("drawn_in_full", "") > marker.share("own_scale", "")
+
+
+def test_a_cause_that_the_answers_tell_from_all_others_has_no_second_name():
+    for name in ("the crank's diameter for its radius", "rev/min for rad/s"):
+        for graded, _ in a_class("slotted-lever", CAUSES[name], 1, count=FEW):
+            assert [cause.either for cause in graded.causes] == [""]
+
+
+def test_a_number_misread_beside_a_cause_does_not_hide_it():
+    """One of two rates in degrees is read a centimetre too long: 284 for 261."""
+    marker = marker_of("offset-slider-crank", 14)
+    key = key_answers(marker.standard)
+    in_degrees = {"omega_2": key["omega_2"].value * 62, "epsilon_2": key["epsilon_2"].value * 57.3}
+    graded = marker.mark(taker(14), {**key, **given(in_degrees)})
+    assert [cause.name for cause in graded.causes] == ["rate_in_degrees"]
+    assert graded.mark("omega_2").earned == 0 < graded.mark("epsilon_2").earned
 
 
 def test_one_misread_length_beside_a_right_value_is_no_scale_of_ones_own():
