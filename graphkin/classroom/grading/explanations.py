@@ -42,6 +42,8 @@ SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
 LIKELY = 3.0
 """The least odds, as a logarithm, at which a cause is named."""
+FAINT, AS_ONE = 1.0, 6.0
+"""The same where answers fit a cause as one drawing with at least the second odds."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
 SECOND = 2.0
@@ -71,7 +73,7 @@ CLOSE = 4
 """The number of pairs that are compared with every pencil."""
 EVEN = 2.0
 """The odds, as a logarithm, within which the answers do not tell two causes apart."""
-CHOICE = 6.0
+CHOICE = 4.0
 """The largest difference in how frequent two such causes are, as a logarithm."""
 
 
@@ -523,9 +525,13 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             if found is None:
                 continue
             turned = not numbers.any() or self.turns_all(i, found)
-            if likely - honest >= (SENSES if turned else LIKELY):
+            if turned or likely - honest >= LIKELY or self.is_one_drawing(i, found):
                 return replace(found, either=self.alternative(i, hypothesis, tried, honest))
         return None
+
+    def is_one_drawing(self, i: int, by: SheetCauses) -> bool:
+        """Whether answers are clearly one drawing with a cause, though each is near the key."""
+        return by.odds >= FAINT and self.of_one_drawing(i, by) >= AS_ONE
 
     def alternative(
         self, i: int, best: Hypothesis, tried: Sequence[tuple[Hypothesis, float]], honest: float
@@ -537,7 +543,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         if len(best.causes) > 1:
             return ""
         (cause,), sheet = best.causes, self.some([i])
-        least = next(likely for each, likely in tried if each is best) - EVEN - CHOICE
+        least = next(likely for each, likely in tried if each is best) - CHOICE
         others = [e for e in tried if e[1] > least and e[0].causes[0].name != cause.name]
         plain = sheet.by_answers(best) if others else 0.0
         for each, likely in others:

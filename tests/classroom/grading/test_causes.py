@@ -95,6 +95,37 @@ def test_another_students_number_is_named_beside_a_second_mistake(second):
     assert all(e.whose for g, _ in found for e in g.causes if e.name == "data_of_another")
 
 
+def one_in_a_class(own: int, drawn: int, at_scales_of: int, *mistakes: str, turned: bool = False):
+    """What becomes of a student who hands in a drawing of another number, in a class of 24."""
+    lab, book, who = "offset-slider-crank", book_of("offset-slider-crank"), f"s{own:02d}"
+    takers = [taker(n, f"s{n:02d}") for n in range(3, 27)]
+    book.prepare(takers)
+    paper = book.marker_of(taker(at_scales_of)).standard.paper
+    sheet = (paper.mechanism, paper.velocities, paper.accelerations)
+    rng = np.random.default_rng([5, own])
+    row = mistaken.handed_in(lab, hand.data(lab, drawn), sheet, rng, mistakes=mistakes)
+    other = {"+": "-", "-": "+"} if turned else {}
+    answers = {i.field: read_answer(other.get(row[i.field], row[i.field]), i) for i in book.form}
+    result = graded_class(book, takers, {who: answers}, as_it_is=True)
+    (graded,) = [each for each in result.graded if each.taker.student.id == who]
+    return graded, result
+
+
+@pytest.mark.parametrize("own", [5, 8])
+def test_mirrored_data_of_a_neighbour_are_named(own):
+    """Two causes near the student's own data explain most of such a sheet, but not all of it."""
+    graded, _ = one_in_a_class(own, own + 2, own, "protractor")
+    named = {cause.name: cause.whose for cause in graded.causes}
+    assert named.keys() == {"data_of_another", "other_scale_of_protractor"}
+    assert named["data_of_another"] == (f"s{own + 2:02d}",)
+
+
+def test_whose_data_were_drawn_is_told_beside_reversed_senses():
+    """The answers of another with all senses turned: at the other's scales, so all sizes fit."""
+    _, result = one_in_a_class(19, 26, 26, turned=True)
+    assert [each.students for each in result.wrong_variants] == [("s19", "s26")]
+
+
 def test_a_crank_turned_the_other_way_is_named_beside_another_mistake():
     """All that shows it is the sense of one ω."""
     found = a_class("offset-slider-crank", [("diameter", "reversed")], 3, count=2)
