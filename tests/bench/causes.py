@@ -83,8 +83,10 @@ def drawn(
 
 
 def is_named(graded: Graded, way: Way) -> bool:
-    """Whether just these mistakes are named."""
-    return {cause.name for cause in graded.causes} == {NAMED[name] for name in way}
+    """Whether just these mistakes are named, each perhaps with one that gives the same answers."""
+    wanted = {NAMED[name] for name in way}
+    named = [{cause.name, cause.either} for cause in graded.causes]
+    return len(named) == len(wanted) and all(each & wanted for each in named)
 
 
 def told(name: str, found: Sequence[tuple[Graded, Way]]) -> str:

@@ -158,15 +158,16 @@ def distribution(graded: Sequence[Graded], words: Words) -> Figure:
 
 def cause_counts(graded: Sequence[Graded]) -> list[tuple[EarnedCause, int, int]]:
     """Each cause with the answers and the students it explains, the most frequent first."""
-    answers: Counter[str] = Counter()
-    students: Counter[str] = Counter()
-    known: dict[str, EarnedCause] = {}
+    answers: Counter[tuple[str, str]] = Counter()
+    students: Counter[tuple[str, str]] = Counter()
+    known: dict[tuple[str, str], EarnedCause] = {}
     for each in graded:
         explained = sum(shown(mark) is Status.CAUSE for mark in worth(each))
         for cause in each.causes:
-            answers[cause.name] += explained
-            students[cause.name] += 1
-            known.setdefault(cause.name, cause)
+            name = cause.name, cause.either
+            answers[name] += explained
+            students[name] += 1
+            known.setdefault(name, cause)
     order = sorted(students, key=lambda name: (-students[name], -answers[name], name))
     return [(known[name], answers[name], students[name]) for name in order]
 

@@ -195,7 +195,8 @@ def best_other(
     answers, digits = read_of(graded, keys)
     caused = likeliest(tuple(by_causes(known, keys)), answers, digits, keys, mine)
     marks = {mark.item.field: mark for mark in graded.marks}
-    explained = np.array([marks[field].cause not in ("", ANOTHER) for field in keys.fields])
+    causes = [marks[field].cause.split("+") for field in keys.fields]
+    explained = np.array([each != [""] and ANOTHER not in each for each in causes])
     found = None
     for other in nearest(answers, digits, keys, mine):
         agree = abs(answers - keys.sizes[other]) <= 1.01 * digits

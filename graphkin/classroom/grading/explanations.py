@@ -42,12 +42,17 @@ SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
 LIKELY = 3.0
 """The least odds, as a logarithm, at which a cause is named."""
+FAINT, AS_ONE = 1.0, 6.0
+"""The same where answers fit a cause as one drawing with at least the second odds."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
 SECOND = 2.0
 """The least odds, as a logarithm, by which two causes must be likelier than one."""
 EXPLAINS = 0.6
 """The least share of the wrong answers that an explanation must give."""
+MOSTLY = 0.1
+"""The part of its distance from the key, as a logarithm, within which a number is explained in the
+main: it is a mistake of its own beside the cause."""
 SPOILS = 0.25
 """The largest share of all answers that an explanation may leave unexplained."""
 SPAN = (0.5, 4.0)
@@ -66,6 +71,10 @@ COARSE = (2,)
 """The pencil by which all pairs are compared."""
 CLOSE = 4
 """The number of pairs that are compared with every pencil."""
+EVEN = 2.0
+"""The odds, as a logarithm, within which the answers do not tell two causes apart."""
+CHOICE = 4.0
+"""The largest difference in how frequent two such causes are, as a logarithm."""
 
 
 class SheetCauses(Struct, frozen=True):
@@ -74,7 +83,8 @@ class SheetCauses(Struct, frozen=True):
     ``values`` are sizes, places and senses by field. ``times`` is how many times as large each
     error then is. ``odds`` says how much likelier this is than no mistake, as a logarithm.
     ``fits`` are the fields whose answers agree; those that are ``alone`` agree whatever they are.
-    ``single`` is the best explanation by one cause, where these are two.
+    ``single`` is the best explanation by one cause, where these are two. ``either`` names another
+    cause that gives the same answers as the one cause, within the errors of the drawing.
     """
 
     causes: tuple[Cause, ...]
@@ -84,6 +94,7 @@ class SheetCauses(Struct, frozen=True):
     fits: frozenset[str] = frozenset()
     alone: frozenset[str] = frozenset()
     single: SheetCauses | None = None
+    either: str = ""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -514,9 +525,38 @@ class AnswerSheets(Struct, frozen=True, dict=True):
             if found is None:
                 continue
             turned = not numbers.any() or self.turns_all(i, found)
-            if likely - honest >= (SENSES if turned else LIKELY):
-                return found
+            if turned or likely - honest >= LIKELY or self.is_one_drawing(i, found):
+                return replace(found, either=self.alternative(i, hypothesis, tried, honest))
         return None
+
+    def is_one_drawing(self, i: int, by: SheetCauses) -> bool:
+        """Whether answers are clearly one drawing with a cause, though each is near the key."""
+        return by.odds >= FAINT and self.of_one_drawing(i, by) >= AS_ONE
+
+    def alternative(
+        self, i: int, best: Hypothesis, tried: Sequence[tuple[Hypothesis, float]], honest: float
+    ) -> str:
+        """The name of another cause that explains a sheet as well as the one that is named.
+
+        How frequent either is does not count: the answers cannot tell. Empty where there is none.
+        """
+        if len(best.causes) > 1:
+            return ""
+        (cause,), sheet = best.causes, self.some([i])
+        least = next(likely for each, likely in tried if each is best) - CHOICE
+        others = [e for e in tried if e[1] > least and e[0].causes[0].name != cause.name]
+        plain = sheet.by_answers(best) if others else 0.0
+        for each, likely in others:
+            if sheet.by_answers(each) > plain - EVEN:
+                explanation = self.settled(i, each, likely - honest)
+                if explanation is not None and self.judged_enough(i, explanation) is not None:
+                    return each.causes[0].name
+        return ""
+
+    def by_answers(self, hypothesis: Hypothesis) -> float:
+        """How likely one student's answers are by a hypothesis, however frequent it is."""
+        prediction = self.shown(hypothesis, closely=True)
+        return -inf if prediction is None else float(self.likely(replace(prediction, price=0.0))[0])
 
     def turns_all(self, i: int, found: SheetCauses) -> bool:
         """Whether an explanation gives the wrong senses, all there are, and changes no number."""
@@ -535,12 +575,23 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         fitting = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
         agreeing = replace(found, fits=frozenset(fitting))
         enough = EXPLAINS if (missed & ~self.form.senses).any() else 1.0
-        few = (missed & fits).sum() < enough * missed.sum()
+        near = fits | self.is_mostly(i, found)
+        few = (missed & near).sum() < enough * missed.sum()
         if spoilt or (few and not self.turns_all(i, agreeing)):
             return None
         if not self.turns_all(i, agreeing) and not self.is_nearer(i, found):
             return None
         return agreeing
+
+    def is_mostly(self, i: int, by: SheetCauses) -> Array:
+        """The numbers that are far from the key and near what an explanation gives.
+
+        One misread length beside a cause leaves such a number.
+        """
+        sizes = np.array([by.values[field] for field in self.variants.fields])
+        with np.errstate(all="ignore"):
+            apart, away = (abs(np.log(self.answers[i] / abs(e))) for e in (sizes, self.key[i]))
+        return ~(self.form.senses | self.form.centres) & (apart < MOSTLY * away)
 
     def is_nearer(self, i: int, by: SheetCauses) -> bool:
         """Whether the answers are likelier by an explanation when all are taken as one drawing.

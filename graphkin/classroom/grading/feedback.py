@@ -114,15 +114,23 @@ def cause_row(cause: EarnedCause, words: Words) -> FeedbackRow:
 
 
 def cause_sentence(cause: EarnedCause, words: Words) -> str:
-    """What a student did, as markup; a lab's own cause in a language that the lab writes."""
+    """What a student did, as markup; a lab's own cause in a language that the lab writes.
+
+    Two causes where the answers do not tell which of them it was.
+    """
     if not cause.said:
-        return words(f"cause.{cause.name}")
+        said = words(f"cause.{cause.name}")
+        other = words(f"cause.{cause.either}") if cause.either else ""
+        return words("feedback.either", cause=said, other=other) if other else said
     return escape(printable(cause.said.get(words.language, next(iter(cause.said.values())))))
 
 
 def shows_sentence(cause: EarnedCause, words: Words) -> str:
-    """Where a cause shows on the drawing."""
-    return words("shows.own" if cause.said else f"shows.{cause.name}")
+    """Where a cause shows on the drawing, and how one of two that may be meant is told."""
+    shows = words("shows.own" if cause.said else f"shows.{cause.name}")
+    if not cause.either:
+        return shows
+    return words("feedback.either", cause=shows, other=words(f"shows.{cause.either}"))
 
 
 def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
@@ -403,6 +411,7 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
     cost = points_words(graded.cost, words)
     opening = words(costing, cost=cost, **sentences) if graded.cost else words(free, **sentences)
     parts: list[str] = [opening]
+    parts += [words("feedback.either_way") for cause in causes if cause.either]
     caused = (m for m in graded.marks if m.status is Status.CAUSE and m.item.what == "sense")
     if lost := sum((mark.points for mark in caused if not mark.earned), Fraction()):
         parts.append(words("feedback.senses_lost", points=points_words(lost, words)))

@@ -155,7 +155,7 @@ class EarnedCause(Struct, frozen=True):
 
     ``odds`` says how much likelier the explanation is than no mistake, as a logarithm. ``whose``
     are the ids of the students whose data were drawn. ``said`` is the sentence of a lab's own cause
-    by language.
+    by language. ``either`` names another cause that gives the same answers, and costs no more.
     """
 
     name: str
@@ -163,6 +163,7 @@ class EarnedCause(Struct, frozen=True):
     odds: float
     whose: tuple[str, ...] = ()
     said: Mapping[str, str] = {}
+    either: str = ""
 
 
 class DrawingRemark(Struct, frozen=True):

@@ -97,8 +97,9 @@ def marks_row(graded: Graded, fields: Sequence[str], fits: Mapping[str, list[str
 
 
 def cause_text(cause: EarnedCause) -> str:
-    """A cause as text: its name, and whose data were drawn."""
-    return f"{cause.name} ({', '.join(cause.whose)})" if cause.whose else cause.name
+    """A cause as text: its name, or two of which either may be meant, and whose data were drawn."""
+    name = f"{cause.name} or {cause.either}" if cause.either else cause.name
+    return f"{name} ({', '.join(cause.whose)})" if cause.whose else name
 
 
 def ruling(decision: Decision) -> str:

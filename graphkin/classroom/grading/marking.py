@@ -156,10 +156,7 @@ class Marker:
 
         Senses that are all reversed cost their own points, and nothing beside.
         """
-        shares = [
-            NONE if name == REVERSED else Fraction(str(self.standard.rubric.cost(name)))
-            for name in found.names
-        ]
+        shares = [self.share(name, found.either) for name in found.names]
         shares = [Fraction(floor(100 * points * share), 100) for share in shares]
         full = sum(shares, NONE)
         part = min(Fraction(1), most / full) if full else NONE
@@ -170,9 +167,17 @@ class Marker:
                 share * part,
                 found.odds,
                 said=own[name].said if name in own else {},
+                either=found.either,
             )
             for name, share in zip(found.names, shares, strict=True)
         )
+
+    def share(self, name: str, either: str) -> Fraction:
+        """The share of all points that a cause costs: of two that may be meant, the lower one."""
+        if name == REVERSED:
+            return NONE
+        may_be = {name, either} - {"", REVERSED}
+        return min(Fraction(str(self.standard.rubric.cost(each))) for each in may_be)
 
     def marks(
         self, taker: Taker, first: FirstLook, found: SheetCauses | None = None

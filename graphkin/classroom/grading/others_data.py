@@ -64,8 +64,9 @@ NEAREST = 24
 """The most other variants that are compared closely with one sheet."""
 AS_WELL = 1.0
 """The odds, as a logarithm, by which another cause may be likelier than the lab's own."""
-UNEXPLAINED = 0.2
-"""The share of unexplained answers from which a second cause beside other data is looked for."""
+UNEXPLAINED, BESIDE_TWO = 0.2, 0.05
+"""The shares of unexplained answers, beside one cause and beside two, from which a second cause
+beside other data is looked for."""
 
 
 class OtherData(Struct, frozen=True):
@@ -252,7 +253,8 @@ def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
     one = explained_by(own, given, missed, Cause(ANOTHER), *tables(own, near))
     best = None if one is None else (near[one[0] // 2], one[1])
     left = given if best is None else {f: a for f, a in given.items() if f not in best[1].fits}
-    is_open = not graded.causes or unexplained(graded) > UNEXPLAINED
+    most = UNEXPLAINED if len(graded.causes) < 2 else BESIDE_TWO
+    is_open = not graded.causes or unexplained(graded) > most
     if is_open and is_lost(own, missed) and any(answer.is_read for answer in left.values()):
         single = None if best is None else best[1]
         near = others.nearest(own, given, NUMBERS)

@@ -59,6 +59,8 @@ PREFIXES = (2, 3)
 """The powers of ten between metres, centimetres and millimetres."""
 ODD_PAIR = 0.3
 """How rare it is that two cells of one row of the table are exchanged."""
+THOUSANDTHS = -5.0
+"""How rare it is that all numbers lose three decimals, as a logarithm: that is rather a unit."""
 OFTEN = 3.0
 """The deviations within which an answer is that of a drawing, but for a power of ten."""
 OTHER = {"ν": "τ", "τ": "ν"}
@@ -137,6 +139,14 @@ class FormFields(Struct, frozen=True, dict=True):
         return np.array([at.get(item.segment, -1) for item in self.items])
 
     @cached_property
+    def partners(self) -> Array:
+        """The place of the segment of each value, and of the value of each segment; -1 for none."""
+        found = self.segments.copy()
+        values = np.flatnonzero(found >= 0)
+        found[found[values]] = values
+        return found
+
+    @cached_property
     def sized(self) -> Array:
         """The place of the value of each sense; -1 where there is none."""
         at = {item.field: i for i, item in enumerate(self.items)}
@@ -182,15 +192,23 @@ class View(Struct, frozen=True, dict=True):
         return self.scales[scale]
 
     def factor(self, predicted: Array, among: Array, fewest: int = FEW) -> Array:
-        """The factor by which a student's answers in some fields are too large; 1 where too few."""
+        """The factor by which a student's answers in some fields are too large; 1 where too few.
+
+        A segment and the value that was computed from it show it without the drawing's errors.
+        """
         with np.errstate(all="ignore"):
-            ratios = np.where(among, self.answers / abs(predicted), np.nan)
+            ratios = self.answers / abs(predicted)
+            partners = self.form.partners
+            paired = (partners >= 0) & ~among[partners] & ~np.isnan(self.answers[:, partners])
+            ratios = ratios / np.where(paired, ratios[:, partners], 1.0)
+            ratios = np.where(among, ratios, np.nan)
             ratios = np.where(np.isfinite(ratios) & (ratios > 0), ratios, np.nan)
             enough = np.isfinite(ratios).sum(axis=1) >= fewest
             long = np.where(self.units > 0, abs(predicted) / self.units, 1.0)
             middle = np.exp(middling(np.log(np.where(enough[:, None], ratios, 1.0)), long))
         found = np.where(enough, middle, 1.0)
-        near = abs(np.log(found)) < np.log(ODD)
+        powers = np.log10(found)
+        near = abs(powers - np.round(powers)) < np.log10(ODD)  # a power of ten is a cause itself
         return np.where(near, 1.0, found)[:, None]
 
 
@@ -461,7 +479,7 @@ def free_factors(factors: Array, free: Array) -> Reads:
 def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
     """Answers off by powers of ten, the same power for all answers with one unit.
 
-    With ``whole``, the answers have lost their decimal point: each by its own digits.
+    With ``whole``, most answers have lost their decimal point: each by its own digits.
     """
     units = {item.unit for item in form.items if item.unit}
     every = np.array([item.unit for item in form.items])
@@ -476,9 +494,13 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
             near = np.round(powers)
             fits = alike & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
         if whole:
-            shift = np.where(fits & view.whole & (near > 0), near, np.nan)
+            written = sized & ~np.isnan(view.answers)
+            most = 2 * (written & view.whole).sum(axis=1) > written.sum(axis=1)
+            shift = np.where(fits & view.whole & (near > 0) & most[:, None], near, np.nan)
             power = np.nan_to_num(shift)
-            return Told(shown * 10.0**power, price=price_of(power))
+            even = ((power == 0) | (power == PREFIXES[1])).all(axis=1) & power.any(axis=1)
+            price = price_of(power) + np.where(even, THOUSANDTHS, 0.0)
+            return Told(shown * 10.0**power, price=price)
         changed = shown
         least = np.where(np.isfinite(near) & fits, abs(near), np.inf).min(axis=1)
         usual = np.where(np.isfinite(least), middling(np.where(fits, near, np.nan)), 0.0)

@@ -19,6 +19,7 @@ from graphkin.classroom.grading.class_marking import Book, graded_class
 from graphkin.classroom.grading.class_report import result_lines
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
+from graphkin.classroom.grading.grading_files import cause_text
 from graphkin.classroom.grading.readings import FormFields
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.text import words
@@ -92,6 +93,37 @@ def test_another_students_number_is_named_beside_a_second_mistake(second):
     found = a_class("offset-slider-crank", [("another number", *second)], 3, count=2)
     assert found and all(is_named(*each) for each in found)
     assert all(e.whose for g, _ in found for e in g.causes if e.name == "data_of_another")
+
+
+def one_in_a_class(own: int, drawn: int, at_scales_of: int, *mistakes: str, turned: bool = False):
+    """What becomes of a student who hands in a drawing of another number, in a class of 24."""
+    lab, book, who = "offset-slider-crank", book_of("offset-slider-crank"), f"s{own:02d}"
+    takers = [taker(n, f"s{n:02d}") for n in range(3, 27)]
+    book.prepare(takers)
+    paper = book.marker_of(taker(at_scales_of)).standard.paper
+    sheet = (paper.mechanism, paper.velocities, paper.accelerations)
+    rng = np.random.default_rng([5, own])
+    row = mistaken.handed_in(lab, hand.data(lab, drawn), sheet, rng, mistakes=mistakes)
+    other = {"+": "-", "-": "+"} if turned else {}
+    answers = {i.field: read_answer(other.get(row[i.field], row[i.field]), i) for i in book.form}
+    result = graded_class(book, takers, {who: answers}, as_it_is=True)
+    (graded,) = [each for each in result.graded if each.taker.student.id == who]
+    return graded, result
+
+
+@pytest.mark.parametrize("own", [5, 8])
+def test_mirrored_data_of_a_neighbour_are_named(own):
+    """Two causes near the student's own data explain most of such a sheet, but not all of it."""
+    graded, _ = one_in_a_class(own, own + 2, own, "protractor")
+    named = {cause.name: cause.whose for cause in graded.causes}
+    assert named.keys() == {"data_of_another", "other_scale_of_protractor"}
+    assert named["data_of_another"] == (f"s{own + 2:02d}",)
+
+
+def test_whose_data_were_drawn_is_told_beside_reversed_senses():
+    """The answers of another with all senses turned: at the other's scales, so all sizes fit."""
+    _, result = one_in_a_class(19, 26, 26, turned=True)
+    assert [each.students for each in result.wrong_variants] == [("s19", "s26")]
 
 
 def test_a_crank_turned_the_other_way_is_named_beside_another_mistake():
@@ -232,6 +264,43 @@ def test_each_plan_at_a_scale_of_its_own_is_one_cause():
     assert [cause.name for cause in graded.causes] == ["own_scale"]
     assert graded.share == Fraction("0.9")
     assert graded.mark("v_D_mm").by_cause is None  # it is the student's own, which proves nothing
+
+
+def test_two_causes_that_give_the_same_answers_are_both_named():
+    """The sheet is at 1:2: plans twice as large, and plans drawn in full, give the same answers."""
+    (graded, _), *_ = a_class("offset-slider-crank", CAUSES["plans of one's own scale"], 1, count=1)
+    (cause,) = graded.causes
+    assert {cause.name, cause.either} == {"own_scale", "drawn_in_full"}
+    text = notes(graded, words("en"))[0]
+    assert text.count("either") == 2 and "do not tell which" in text  # the cause, where it shows
+    assert "own_scale" in cause_text(cause) and "drawn_in_full" in cause_text(cause)
+
+
+def test_of_two_causes_that_may_be_meant_the_lower_deduction_is_made():
+    lab = lab_of("offset-slider-crank")
+    dearer = replace(lab.rubric, causes={**lab.rubric.causes, "drawn_in_full": "serious"})
+    book = Book(replace(lab, rubric=dearer), lab.scene.read_text("utf-8"))
+    marker = book.marker_of(taker(7))
+    found = {"own_scale": "", "drawn_in_full": "own_scale"}
+    for name, either in found.items():
+        assert marker.share(name, either) == Fraction(str(dearer.cost("own_scale")))
+    assert marker.share("drawn_in_full", "") > marker.share("own_scale", "")
+
+
+def test_a_cause_that_the_answers_tell_from_all_others_has_no_second_name():
+    for name in ("the crank's diameter for its radius", "rev/min for rad/s"):
+        for graded, _ in a_class("slotted-lever", CAUSES[name], 1, count=FEW):
+            assert [cause.either for cause in graded.causes] == [""]
+
+
+def test_a_number_misread_beside_a_cause_does_not_hide_it():
+    """One of two rates in degrees is read a centimetre too long: 284 for 261."""
+    marker = marker_of("offset-slider-crank", 14)
+    key = key_answers(marker.standard)
+    in_degrees = {"omega_2": key["omega_2"].value * 62, "epsilon_2": key["epsilon_2"].value * 57.3}
+    graded = marker.mark(taker(14), {**key, **given(in_degrees)})
+    assert [cause.name for cause in graded.causes] == ["rate_in_degrees"]
+    assert graded.mark("omega_2").earned == 0 < graded.mark("epsilon_2").earned
 
 
 def test_one_misread_length_beside_a_right_value_is_no_scale_of_ones_own():
