@@ -20,6 +20,7 @@ SAID = (
     "turn.say.which",
     "turn.say.either",
     "turn.say.unread",
+    "turn.say.undrawn",
     "turn.say.undone",
     "turn.say.redone",
     "turn.say.hint",

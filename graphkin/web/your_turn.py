@@ -609,7 +609,7 @@ class MoveFinder:
             return kind.symbol(drawing), kind.symbol(drawing)
         if action in ("perpendicular", "parallel"):
             sign = "⊥" if action == "perpendicular" else "∥"
-            return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
+            return f"{sign} {names[1]} ({names[0]})", vector_on(drawing, number, kind, names[0])
         if action == "compass":
             return (drawing.words("turn.say.arc", p=names[0], bar=names[1]),) * 2
         if action == "join":
@@ -619,20 +619,20 @@ class MoveFinder:
         name = self.letter(number)
         return name, names[1] if action == "lay_off" else name
 
-    def vector_on(self, number: int, kind: Construction | None, start: str) -> str:
-        """The vector that lies on a line drawn to find its end."""
-        drawing = self.drawing(number)
-        if isinstance(kind, VelocityNormal):
-            return drawing.words("turn.to_centre", p=start)
-        vector = ""
-        if isinstance(kind, AboutPivot):
-            sign = "^τ" if drawing.kind == "acceleration" else ""
-            vector = drawing.symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
-        elif isinstance(kind, AlongGuide):
-            vector = kind.vector_along(drawing, number)
-        elif kind is not None:
-            vector = kind.vector_to(self.steps[number].role)
-        return vector or drawing.words("turn.this_line")
+
+def vector_on(drawing: Drawing, number: int, kind: Construction | None, start: str) -> str:
+    """The vector that lies on a line drawn to find its end."""
+    if isinstance(kind, VelocityNormal):
+        return drawing.words("turn.to_centre", p=start)
+    vector = ""
+    if isinstance(kind, AboutPivot):
+        sign = "^τ" if drawing.kind == "acceleration" else ""
+        vector = drawing.symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
+    elif isinstance(kind, AlongGuide):
+        vector = kind.vector_along(drawing, number)
+    elif kind is not None:
+        vector = kind.vector_to(drawing.trace.program.steps[number].role)
+    return vector or drawing.words("turn.this_line")
 
 
 def values_on(sheet: ScreenSheet) -> dict[int, Any]:
@@ -683,6 +683,9 @@ SAID = (
     "turn.say.nowhere_line",
     "turn.say.either",
     "turn.say.unread",
+    "turn.say.undrawn",
+    "turn.say.other_drawing",
+    "turn.say.neither_end",
     "turn.say.undone",
     "turn.say.redone",
     "turn.say.hint_action",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 from shutil import copytree
 from typing import Any
@@ -282,6 +283,34 @@ def test_a_mistake_is_red_and_what_follows_from_it_green(folder: Path, run: Run,
     assert row["v_D_mm why"].startswith(("follows", "right"))
     told = (tmp_path / "report" / "feedback" / "0042.html").read_text(encoding="utf-8")
     assert told.count('r="2.20" stroke="#c21807"') == 1  # a alone
+
+
+WRONG = {
+    "along_bar": VELOCITIES.replace("perp 16 A-B", "par 16 A-B"),
+    "pole": VELOCITIES.replace("perp 16 A-B", "perp 1: A-B"),
+    "mirrored": VELOCITIES.replace("perp 16 A-C|perp 20 B-C", "perp 20 A-C|perp 16 B-C"),
+    "across_guide": VELOCITIES.replace("par 1: g:5", "perp 1: g:5"),
+    "normal_forgotten": PUMP.replace("perp 37 A-B", "perp 31 A-B"),
+    "normal_turned": PUMP.replace("lay 31 36", "lay 31 36 /1"),
+    "tangential_along_bar": PUMP.replace("perp 37 A-B", "par 37 A-B"),
+}
+"""Wrong constructions by the key of the sentence that names each; the last three are of b′."""
+
+
+@pytest.mark.parametrize("key", WRONG)
+def test_a_wrong_construction_is_named(folder: Path, run: Run, tmp_path: Path, key: str):
+    """Its sentence follows the remark on its point; what is found from that point follows."""
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    text = f"field,value\nid,0042\ndrawing,{WRONG[key]}\n"
+    (answers / "0042-answers.csv").write_text(text, "utf-8")
+    graded(run, folder, answers, tmp_path / "report")
+    told = (tmp_path / "report" / "feedback" / "0042.html").read_text(encoding="utf-8")
+    told = re.sub("<[^>]+>", "", told)
+    parts = [re.split(r"\{\w+\}", RO.sentences[f"turn.wrong.{each}"]) for each in WRONG]
+    found = [re.search(".{1,9}".join(map(re.escape, each)), told) is not None for each in parts]
+    assert [each for each, is_said in zip(WRONG, found, strict=True) if is_said] == [key]
+    assert told.count(RO.sentences["marked.wrong"].rpartition("} ")[2]) == 1
 
 
 def test_both_plans_earn_what_they_would_on_paper(folder: Path, run: Run, tmp_path: Path):

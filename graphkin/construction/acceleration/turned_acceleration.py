@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, EndsComponent, GivenVector
 from graphkin.construction.core.naming import has_no_length, letter_at, rate_symbol
+from graphkin.construction.core.palette import PERPENDICULAR, ErrorPicks, KnownError
 from graphkin.construction.core.pen import Pen, about, component_arrow, letter
-from graphkin.construction.core.program import OwnStep, Plane
+from graphkin.construction.core.program import OwnStep, Plane, Step
 from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
@@ -66,6 +67,12 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
 
     def index_at(self, role: str) -> str:
         return self.index
+
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line without the normal component."""
+        start, pivot, pin, *_ = steps[self.end].args
+        inputs = picks.point_or_line(start), picks.bar(pivot, pin)
+        yield KnownError("turn.wrong.normal_forgotten", self.end, PERPENDICULAR, inputs)
 
     # --- its sentences ---------------------------------------------------------------------------
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -24,9 +24,15 @@ from graphkin.construction.core.naming import (
     turning_with,
     vector_of,
 )
-from graphkin.construction.core.palette import LAYS_OFF, Move
+from graphkin.construction.core.palette import (
+    LAYS_OFF,
+    PARALLEL,
+    ErrorPicks,
+    KnownError,
+    Move,
+)
 from graphkin.construction.core.pen import Pen, against, letter
-from graphkin.construction.core.program import OwnStep
+from graphkin.construction.core.program import OwnStep, Step
 from graphkin.construction.core.quantities import OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.vocabulary import action
@@ -192,6 +198,12 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
             yield self.euler(drawing, omega=rate_symbol(drawing, self.omega, link=self.link))
             if self.image not in drawing.auxiliary:
                 yield self.by_turning(drawing, self.omega, "")
+
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line along the bar."""
+        start, pivot, pin, _ = steps[self.image].args
+        inputs = picks.point_or_line(start), picks.bar(pivot, pin)
+        yield KnownError("turn.wrong.along_bar", self.image, PARALLEL, inputs)
 
     def known_by(self, drawing: Drawing) -> str:
         """Perpendicular to its bar, by the rate of a driver; empty for other links."""

@@ -67,6 +67,17 @@ export const lettered = () =>
       .map(([, [point, letter]]) => [letter, point]),
   );
 
+/** The letters that no point has yet, and the bars and vectors between those. */
+export const absent_names = () =>
+  [
+    ...Object.entries(turning.letters).map(([letter, { name }]) => [letter, name]),
+    ...[turning.bars, turning.arrows].flatMap(pairs =>
+      Object.entries(pairs).map(([key, [, , name]]) => [key, name]),
+    ),
+  ]
+    .filter(([key]) => !picks[key] && !lettered()[key])
+    .map(([, name]) => name);
+
 /** The name of a thing that has no letter. */
 function plain_name(key, [action, given]) {
   if (["line", "circle"].includes(shape_of(action)))

@@ -1,8 +1,10 @@
 // A move typed as it is written: "⊥ AB a", or with an ASCII word "perp AB a". What would come is shown before Enter.
 import { byId } from "#page";
 import {
+  absent_names,
   action_name,
   is_letter,
+  is_there,
   moves,
   picks,
   results_of,
@@ -15,7 +17,15 @@ import {
 } from "#turn";
 import { draw_move, settle_which } from "./choosing.js";
 import { redo, undo } from "./history.js";
-import { fits, forget_inputs, names_of, plain_words, show_picks, slots_of } from "./picking.js";
+import {
+  fits,
+  forget_inputs,
+  names_of,
+  plain_words,
+  show_picks,
+  slots_asked,
+  slots_of,
+} from "./picking.js";
 import { is_curve, show_aim } from "./pointing.js";
 
 const PLAIN = { "°": "", "′": "'", "″": "''", ν: "n", τ: "t", ω: "w", ε: "e", "−": "-" };
@@ -160,7 +170,8 @@ export function draw_typed() {
   if (!value.trim() || is_letter(value)) return;
   if (!way) {
     byId("turn-typed").select();
-    return tell_turn(worded("unread", { text: escaped(value) }));
+    byId("turn-sentence").replaceChildren(); // the reason of an earlier move
+    return tell_turn(why_unread(value));
   }
   if (ways.length > 1) {
     const actions = ways.map(each => action_name(each.action)).join(" · ");
@@ -174,6 +185,25 @@ export function draw_typed() {
   [turn.action, turn.inputs] = [way.action, way.inputs];
   show_picks();
   draw_move();
+}
+
+/** Why a typed line draws nothing: a name of nothing, a thing that is not drawn yet, or inputs that do not fit. */
+function why_unread(line) {
+  const [action, rest] = split_action(typed_form(line).trim());
+  const there = new Set(Object.keys(picks).filter(is_there).flatMap(forms_of)),
+    absent = absent_names().map(name => [typed_form(plain_words(name)).replaceAll(" ", ""), name]);
+  let left = rest.trimStart();
+  while (left) {
+    const long = forms => Math.max(0, ...forms.map(form => written_length(left, form)));
+    const end = long([...there, ...typed_numbers(left).map(([, form]) => form)]);
+    if (!end) {
+      const [, name] = absent.find(([form]) => written_length(left, form)) ?? [];
+      if (name) return worded("undrawn", { name });
+      return worded("unread", { text: escaped(left.split(" ")[0]) });
+    }
+    left = left.slice(end).trimStart();
+  }
+  return action ? slots_asked(action) : worded("unread", { text: escaped(line) });
 }
 
 const STICKS = ["perpendicular", "parallel", "triangle", "compass"]; // of which several are drawn one after the other
