@@ -684,6 +684,7 @@ SAID = (
     "turn.say.either",
     "turn.say.unread",
     "turn.say.undrawn",
+    "turn.say.unfit",
     "turn.say.other_drawing",
     "turn.say.neither_end",
     "turn.say.undone",
@@ -848,13 +849,15 @@ def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
 
 
 def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
-    """A pick as data; whatever a move or two points determine is left out."""
+    """A pick as data; left out are what a move or two points determine, no needs, and plane 0."""
     found: dict[str, object] = {"kind": pick.kind}
     if key.isdigit() and int(key) in turn.moves:
         return found
     if pick.kind != "bar":
-        found |= {"name": marked_up(pick.name), "plane": PLANES.index(pick.plane)}
-    if pick.kind not in ("bar", "arrow"):
+        found["name"] = marked_up(pick.name)
+        if pick.plane is not PLANES[0]:
+            found["plane"] = PLANES.index(pick.plane)
+    if pick.needs and pick.kind not in ("bar", "arrow"):
         found["needs"] = pick.needs
     if pick.value is not None:
         found["value"] = written(pick.value)
@@ -865,6 +868,10 @@ def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
     return found
 
 
+DIGITS = 13
+"""The digits of values on a page, whose script compares them to 7."""
+
+
 def written(value: Any) -> object:
     """A value as data: a number, a point [x, y], a line or vector of two, a circle {c, r}."""
     match value:
@@ -873,8 +880,8 @@ def written(value: Any) -> object:
         case Line() | Vector():
             return [written(complex(part)) for part in value]
         case Circle():
-            return {"c": written(complex(value.centre)), "r": float(value.radius)}
+            return {"c": written(complex(value.centre)), "r": written(value.radius)}
         case complex():
-            return [value.real, value.imag]
+            return [written(value.real), written(value.imag)]
         case _:
-            return float(value)
+            return float(f"{value:.{DIGITS}g}")

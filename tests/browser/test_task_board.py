@@ -25,7 +25,7 @@ from tests.web.drawn_logs import RING as GEARS
 
 TYPED = """
 ray O1 44
-off O1 44 60 /1
+off O1 44 60
 A
 arc A AB
 arc O2 O2B
@@ -58,17 +58,17 @@ d
 RO = words("ro")
 RING = """
 ray O φ
-off O φ OP /1
+off O φ OP
 P
-off O φ 60 /1
+off O φ 60
 T1
 ray P -20
-off P -20 PQ /1
+off P -20 PQ
 Q
-off O φ 20 /1
+off O φ 20
 T2
 ray O 40
-off O 40 OS /1
+off O 40 OS
 S
 perp o OP
 off o OP 60 /1
@@ -128,6 +128,34 @@ def test_the_board_says_why_nothing_can_be_drawn(opened: Opened, folder: Path, l
     page.locator("#turn-draw").click()
     assert page.locator("#turn-say").inner_text().endswith(f". {RO(f'board.{NOTHING[lines]}')}")
     assert log_of(page).count(BETWEEN) == 1
+
+
+def test_a_ray_is_followed_from_its_start_in_its_own_direction(opened: Opened, folder: Path):
+    """A length on it is laid off at once; from another point, or along a line, there are two."""
+    page = fresh(opened, page_of(folder))
+    for lines, asks in (
+        ("ray O1 230\noff O1 230 60", False),
+        ("A\noff A 230 60", True),
+        ("par O2 5\noff O2 5 60", True),
+    ):
+        page.keyboard.press("Escape")
+        typed(page, lines)
+        assert page.locator("#which").is_visible() == asks
+    assert log_of(page) == "ray 0:O1 230deg|off 0:O1 1 60mm|name 2 0:A|par 0:O2 g:5"
+
+
+def test_a_line_that_draws_nothing_is_told_why(opened: Opened, folder: Path):
+    page = fresh(opened, page_of(folder))
+    say = page.locator("#turn-say")
+    for line, key, fields in (
+        ("perp foo AB", "unread", {"text": "foo"}),
+        ("perp a AB", "undrawn", {"name": "a"}),
+        ("sim a o C", "undrawn", {"name": "a"}),
+    ):
+        typed(page, line)
+        assert say.inner_text() == RO(f"turn.say.{key}", **fields)
+    typed(page, "perp o O1")
+    assert say.inner_text().startswith(RO("turn.say.unfit"))
 
 
 WRITTEN = 500
@@ -337,7 +365,7 @@ def test_a_log_of_nobody_waits_and_harms_no_one(folder: Path, run: Run, tmp_path
 
 def test_what_is_drawn_is_kept_taken_back_and_drawn_again(opened: Opened, folder: Path):
     page = fresh(opened, page_of(folder, "0043"))
-    typed(page, "ray O1 48\noff O1 48 60 /1\nA\narc A AB")
+    typed(page, "ray O1 48\noff O1 48 60\nA\narc A AB")
     whole = log_of(page)
     page.wait_for_timeout(WRITTEN)
     page.reload()
@@ -368,10 +396,10 @@ def test_a_lab_may_let_its_page_say_what_is_right(opened: Opened, run: Run, tmp_
     run("sheet", lab, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
     page = fresh(opened, tmp_path / "pump-task.html")
     say = page.locator("#turn-say")
-    typed(page, "ray O1 44\noff O1 44 55 /1\nA")
+    typed(page, "ray O1 44\noff O1 44 55\nA")
     say.filter(has_text="A is not at its place.").wait_for()
     page.locator("#turn-undo").click()
-    typed(page, "off O1 44 60.4 /1\nA")
+    typed(page, "off O1 44 60.4\nA")
     say.filter(has_text="A: right.").wait_for()
 
 

@@ -14,7 +14,9 @@ import {
   minus,
   moves,
   moves_left,
+  next_move,
   ORDER,
+  part_of,
   picks,
   reasons_of,
   results_of,
@@ -58,8 +60,11 @@ export function refuse_other(meant, action, value, plane, given) {
   refuse_move(turned ? `${said} ${worded(turned, { about })}` : said, meant);
 }
 
-/** The moves that are due: what they need is drawn. */
-const moves_due = () => moves_left().filter(step => all_done(moves[step].needs));
+/** The moves of this part of the work that are due: what they need is drawn. */
+const moves_due = () =>
+  moves_left().filter(
+    step => all_done(moves[step].needs) && part_of(step) === part_of(next_move()),
+  );
 
 /** Say why a choice is wrong: as a known error, or by the most similar move that is due. */
 export function why_wrong(action, given, found, plane) {

@@ -12,6 +12,7 @@ export const UNITS = { length: ["mm", "mm"], angle: ["deg", "°"], rate: ["rad",
 export const MOST_MOVES = 400,
   MOST_SIGNS = 4000; // as in graphkin.construction.board
 
+const palette = palette_of(turning, () => true, { ACTIONS, drawn_by });
 export const {
   plus,
   minus,
@@ -22,11 +23,22 @@ export const {
   value_of,
   plane_of,
   results_of,
-  choices_of,
   likewise,
   same_value,
   shape_of,
-} = palette_of(turning, () => true, { ACTIONS, drawn_by });
+} = palette;
+
+/**
+ * The results from which the student chooses; a ray is followed from its start in its own direction alone.
+ * @param {string} action
+ * @param {string[]} given
+ */
+export function choices_of(action, given) {
+  const found = palette.choices_of(action, given),
+    [start, on] = given,
+    [drawn, [from]] = turn.lines[Number(on?.slice(3)) - 1] ?? ["", []];
+  return action === "set_off" && drawn === "ray" && from === start ? found.slice(0, 1) : found;
+}
 
 /** @type {Turn} */
 export const turn = {

@@ -144,7 +144,7 @@ function typed_ways(line) {
     readings(one, rest, in_order, action !== null)
       .slice(0, 1)
       .map(inputs => ({ action: one, inputs }));
-  if (action) return of(action, false);
+  if (action) return [of(action, true), of(action, false)].find(ways => ways.length) ?? [];
   const own = in_order => (turn.tool ? of(turn.tool, in_order) : []);
   const all = Object.keys(turning.palette).flatMap(one => of(one, true)),
     least = Math.min(...all.map(({ inputs }) => inputs.length));
@@ -190,20 +190,30 @@ export function draw_typed() {
 /** Why a typed line draws nothing: a name of nothing, a thing that is not drawn yet, or inputs that do not fit. */
 function why_unread(line) {
   const [action, rest] = split_action(typed_form(line).trim());
-  const there = new Set(Object.keys(picks).filter(is_there).flatMap(forms_of)),
-    absent = absent_names().map(name => [typed_form(plain_words(name)).replaceAll(" ", ""), name]);
+  const there = Object.keys(picks)
+    .filter(is_there)
+    .flatMap(key => forms_of(key).map(form => [form, ""]));
+  const absent = absent_names().map(name => [
+    typed_form(plain_words(name)).replaceAll(" ", ""),
+    name,
+  ]);
   let left = rest.trimStart();
   while (left) {
-    const long = forms => Math.max(0, ...forms.map(form => written_length(left, form)));
-    const end = long([...there, ...typed_numbers(left).map(([, form]) => form)]);
-    if (!end) {
-      const [, name] = absent.find(([form]) => written_length(left, form)) ?? [];
-      if (name) return worded("undrawn", { name });
-      return worded("unread", { text: escaped(left.split(" ")[0]) });
-    }
+    const [word] = left.split(" "),
+      numbers = typed_numbers(left).map(([, form]) => [form, ""]);
+    const [end, name] = [word, left]
+      .map(text =>
+        [...there, ...numbers, ...absent]
+          .map(([form, name]) => [written_length(text, form), name])
+          .reduce((a, b) => (b[0] > a[0] ? b : a), [0, ""]),
+      )
+      .reduce((a, b) => (a[0] ? a : b));
+    if (name) return worded("undrawn", { name });
+    if (!end) return worded("unread", { text: escaped(word) });
     left = left.slice(end).trimStart();
   }
-  return action ? slots_asked(action) : worded("unread", { text: escaped(line) });
+  if (!action) return worded("unread", { text: escaped(line) });
+  return `${rest.trim() ? worded("unfit") : ""} ${slots_asked(action)}`.trim();
 }
 
 const STICKS = ["perpendicular", "parallel", "triangle", "compass"]; // of which several are drawn one after the other
