@@ -338,6 +338,13 @@ def test_what_a_typed_line_lacks_is_named(kept: Opened, pump: Path):
         assert page.locator("#turn-sentence").inner_text() == ""
 
 
+def test_the_sheet_that_is_drawn_on_stays(kept: Opened, pump: Path):
+    """A right move on the acceleration sheet keeps it, though the velocity sheet is not whole."""
+    page = begun(kept, pump, 12)
+    typed(page, "lay o'aA", "1", "tri B AB vBA")
+    assert page.locator("#sheet-1").is_visible()
+
+
 TURNED = {
     "pump": (29, "a'aBAn", "21", "The normal component points towards the centre of rotation."),
     "slotted-lever": (23, "a'aAA3c", "12", "The Coriolis component points as"),

@@ -158,6 +158,16 @@ def test_a_line_that_draws_nothing_is_told_why(opened: Opened, folder: Path):
     assert say.inner_text().startswith(RO("turn.say.unfit"))
 
 
+def test_a_saved_drawing_is_told(opened: Opened, folder: Path, tmp_path: Path):
+    page = fresh(opened, page_of(folder))
+    typed(page, "ray O1 44\noff O1 44 60\nA")
+    save(page, tmp_path)
+    told = page.locator("form.answers .status").inner_text()
+    fields = page.locator("form.answers [name]:not([type=hidden])").count()
+    said = {"file": "0042-answers.csv", "moves": 3, "count": 0, "all": fields}
+    assert told == RO("answers.saved_drawn", **said)
+
+
 WRITTEN = 500
 """Milliseconds in which a busy browser passes what a page keeps on to the page that is reloaded."""
 

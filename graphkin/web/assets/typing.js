@@ -238,6 +238,7 @@ export function key_in_turn(event) {
   }
   const is_letter_key = key.length === 1 && key !== " " && !with_command && !event.altKey;
   if (is_letter_key && !target.closest("input,select,textarea,svg")) {
+    byId("turn-type").classList.add("keyed"); // there is a keyboard, also where only fingers point
     field.focus({ preventScroll: true }); // the letter is written there
   }
 }
