@@ -14,7 +14,7 @@ from msgspec import Struct
 from graphkin.construction.core.component import component_ending_at
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import letter_at
-from graphkin.construction.core.palette import PERPENDICULAR, KnownError, Picks
+from graphkin.construction.core.palette import PERPENDICULAR, ErrorPicks, KnownError
 from graphkin.construction.core.pen import Pen, about, acceleration_arrow, component_arrow, letter
 from graphkin.construction.core.program import Step
 from graphkin.construction.normal_component import lay_off_normal, normal_component
@@ -45,7 +45,7 @@ class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
         foot = drawing.symbol(letter_at(drawing, self.start))
         return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)
 
-    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
         """A line without the normal component, along the bar, or from the pole."""
         if before := forgotten(picks, steps, self.start):
             _, *ends = steps[self.line].args

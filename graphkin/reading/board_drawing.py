@@ -30,16 +30,18 @@ from graphkin.classroom.printing.edition import Edition
 from graphkin.classroom.printing.print_work import PrintOrder
 from graphkin.classroom.roster.students import Taker
 from graphkin.construction.board import PLANES, Board, board_given, replayed
+from graphkin.construction.core.vocabulary import similar_point
 from graphkin.drawing.field import A3, Field, SheetPaper, clipped
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
 from graphkin.drawing.symbol_markup import escape
 from graphkin.numbers.arithmetic import np
-from graphkin.numbers.plane import Circle, Line
+from graphkin.numbers.plane import Circle, Line, crossing_sine
 from graphkin.reading.drawn_answers import cell, drawn_items, is_followed
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.marked_drawing import GREEN, RED, YELLOW, colour_of, sentence
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.read_sheet import sheets_of
+from graphkin.reading.wrong_lines import wrong_lines
 from graphkin.text import Words
 from graphkin.text.errors import Refusals
 from graphkin.writers.templates import from_template
@@ -53,6 +55,8 @@ COMMON = 95.0
 """The percentage of careful drawings that the error of a point holds."""
 NOWHERE = Page(A3.width, A3.height, ())
 """The page of a drawing that is on no paper."""
+TURNED, ROUNDED = 1e-3, 0.5
+"""The sine of the angle, and the distance in mm, by which two drawn lines may differ and be one."""
 LONG = 1000.0
 """Half the length of a drawn line, in mm; its field cuts it."""
 
@@ -61,12 +65,14 @@ class JudgedSheet(Struct, frozen=True):
     """One sheet of a replayed drawing with its points, in mm of paper.
 
     ``corners`` are the places where points without a letter belong, each with its error.
+    ``whys`` are sentences about known wrong lines, by the steps of the points found on them.
     """
 
     sheet: LetteredSheet
     board: Board
     points: tuple[PointReading, ...]
     corners: Mapping[int, tuple[complex, float]]
+    whys: Mapping[int, Sequence[str]]
 
 
 def add_drawings(opened: Edition, given: Answers, refusals: Refusals) -> dict[str, DrawingBack]:
@@ -173,9 +179,10 @@ def judged(sheet: LetteredSheet, board: Board, pencil: Pencil) -> JudgedSheet:
             corners[number] = place_of(sheet, number, found), error_of(sheet, cloud, number, pencil)
         if number not in sheet.points or number not in letters:
             continue
-        key, own = (place_of(sheet, number, each) for each in (exact.trace.values, found))
+        key = place_of(sheet, number, exact.trace.values)
         thing = board.named.get(letters[number])
         at = None if thing is None else complex(sheet.place(number, board.own[thing].value))
+        own = nearest(at, [place_of(sheet, number, each) for each in ways(sheet, number, found)])
         error = error_of(sheet, cloud, number, pencil)
         behind = bool(wrong & behind_of(sheet, number))
         verdict = verdict_on(at, key, own, error, behind=behind)
@@ -195,7 +202,50 @@ def judged(sheet: LetteredSheet, board: Board, pencil: Pencil) -> JudgedSheet:
                 round(error, 3),
             )
         )
-    return JudgedSheet(sheet, board, tuple(readings), corners)
+    whys = {step: list(whys_of(sheet, board, step, found)) for step in sorted(wrong)}
+    return JudgedSheet(sheet, board, tuple(readings), corners, whys)
+
+
+def ways(
+    sheet: LetteredSheet, number: int, found: Mapping[int, Any]
+) -> Iterator[Mapping[int, Any]]:
+    """The values with a step as the sheet finds it, and by similarity where that finds it too."""
+    yield found
+    step = sheet.exact.program.steps[number]
+    if step.action is similar_point and sheet.exact.by_hand(number) is not None:
+        yield {**found, number: similar_point.value(*(found[arg] for arg in step.args))}
+
+
+def nearest(at: complex | None, places: Sequence[complex]) -> complex:
+    """The place nearest to a drawn point; the first one where nothing is drawn."""
+    return places[0] if at is None else min(places, key=lambda place: abs(place - at))
+
+
+def whys_of(
+    sheet: LetteredSheet, board: Board, number: int, found: Mapping[int, Any]
+) -> Iterator[str]:
+    """What is wrong with the lines on which a student found a point, where that is known."""
+    hand, steps = sheet.exact.by_hand(number), sheet.exact.program.steps
+    own = steps[number if hand is None else hand].args
+    plane = PLANES.index(sheet.drawing.plane)
+    mm = board.given.millimetre[plane]
+    drawn = [
+        thing.value
+        for thing in board.own.values()
+        if thing.plane == plane and isinstance(thing.value, Line)
+    ]
+    for step, line, said in wrong_lines(sheet.drawing, found):
+        is_wrong = step == number or (step in own and not is_same(line, found[step], mm))
+        if is_wrong and any(is_same(each, line, mm) for each in drawn):
+            yield said
+
+
+def is_same(one: Line, other: Line, mm: float) -> bool:
+    """Whether two lines of a plan are one, up to what a typed length is rounded by."""
+    gap = (other.point - one.point) / one.along
+    return bool(
+        crossing_sine(one, other) < TURNED and abs(gap.imag * abs(one.along)) < ROUNDED * mm
+    )
 
 
 def stream(exact: Original, number: int) -> Any:
@@ -277,7 +327,7 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
             (
                 words(f"sheet.{each.sheet.kind}"),
                 [(field, list(shapes(each, field))) for field in fields(each)],
-                [(sentence(point, words), LOOKS[colour_of(point)]) for point in points],
+                [(remark_on(each, point, words), LOOKS[colour_of(point)]) for point in points],
             )
         )
     markup = from_template("reading/web/board.html", title=title, legend=legend, sheets=sheet_parts)
@@ -286,6 +336,12 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
         blocks += [text_block(name, LETTER), on_paper(drawn, sheets[0].sheet.drawing.paper)]
         blocks += [remark(text, look) for text, look in lines]
     return DrawingBack(markup, tuple(blocks))
+
+
+def remark_on(each: JudgedSheet, point: PointReading, words: Words) -> str:
+    """The markup of a remark on a point, with what is wrong in its construction."""
+    whys = each.whys.get(point.step, ())
+    return ". ".join([escape(sentence(point, words)), *dict.fromkeys(whys)])
 
 
 LOOKS = {GREEN: "right", RED: "wrong", YELLOW: "wrong"}
@@ -327,7 +383,7 @@ INKED = {"own": "construction", "dot": "dimension", "bar": "dimension"} | {
 
 def remark(text: str, look: str) -> Block:
     """A remark on a point, in its colour."""
-    height, marks = text_block(escape(text), SMALL)
+    height, marks = text_block(text, SMALL)
     return height - 1.6, [replace(mark, cls=look) for mark in marks if isinstance(mark, Text)]
 
 

@@ -20,6 +20,8 @@ SAID = (
     "turn.say.which",
     "turn.say.either",
     "turn.say.unread",
+    "turn.say.undrawn",
+    "turn.say.unfit",
     "turn.say.undone",
     "turn.say.redone",
     "turn.say.hint",
@@ -113,5 +115,4 @@ def written_thing(thing: Thing) -> dict[str, object]:
         "plane": thing.plane,
         "name": marked_up(thing.name),
         "value": written(thing.value),
-        "needs": [],
     }

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.naming import length_scale
 from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import result_tables, slide_sense
 from graphkin.documents.sheet import asked_words, members, plan_at
@@ -69,8 +68,8 @@ def senses(drawing: Drawing) -> dict[str, tuple[str, str]]:
 
 def scales_told(drawing: Drawing) -> tuple[str, str]:
     """The scale at which a task is drawn, and that of its plan."""
-    words, kL = drawing.words, f"{length_scale(drawing)} {drawing.words.unit('m/mm')}"
-    scale = words("task.to_scale", scale=words.decimal(drawing.scales.words), kL=kL)
+    words = drawing.words
+    scale: str = words("task.to_scale", scale=words.decimal(drawing.scales.words))
     return scale, plan_at(drawing)
 
 

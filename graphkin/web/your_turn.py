@@ -609,7 +609,7 @@ class MoveFinder:
             return kind.symbol(drawing), kind.symbol(drawing)
         if action in ("perpendicular", "parallel"):
             sign = "⊥" if action == "perpendicular" else "∥"
-            return f"{sign} {names[1]} ({names[0]})", self.vector_on(number, kind, names[0])
+            return f"{sign} {names[1]} ({names[0]})", vector_on(drawing, number, kind, names[0])
         if action == "compass":
             return (drawing.words("turn.say.arc", p=names[0], bar=names[1]),) * 2
         if action == "join":
@@ -619,20 +619,20 @@ class MoveFinder:
         name = self.letter(number)
         return name, names[1] if action == "lay_off" else name
 
-    def vector_on(self, number: int, kind: Construction | None, start: str) -> str:
-        """The vector that lies on a line drawn to find its end."""
-        drawing = self.drawing(number)
-        if isinstance(kind, VelocityNormal):
-            return drawing.words("turn.to_centre", p=start)
-        vector = ""
-        if isinstance(kind, AboutPivot):
-            sign = "^τ" if drawing.kind == "acceleration" else ""
-            vector = drawing.symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
-        elif isinstance(kind, AlongGuide):
-            vector = kind.vector_along(drawing, number)
-        elif kind is not None:
-            vector = kind.vector_to(self.steps[number].role)
-        return vector or drawing.words("turn.this_line")
+
+def vector_on(drawing: Drawing, number: int, kind: Construction | None, start: str) -> str:
+    """The vector that lies on a line drawn to find its end."""
+    if isinstance(kind, VelocityNormal):
+        return drawing.words("turn.to_centre", p=start)
+    vector = ""
+    if isinstance(kind, AboutPivot):
+        sign = "^τ" if drawing.kind == "acceleration" else ""
+        vector = drawing.symbol(f"{drawing.vector.letter}_{kind.index}{sign}")
+    elif isinstance(kind, AlongGuide):
+        vector = kind.vector_along(drawing, number)
+    elif kind is not None:
+        vector = kind.vector_to(drawing.trace.program.steps[number].role)
+    return vector or drawing.words("turn.this_line")
 
 
 def values_on(sheet: ScreenSheet) -> dict[int, Any]:
@@ -683,6 +683,10 @@ SAID = (
     "turn.say.nowhere_line",
     "turn.say.either",
     "turn.say.unread",
+    "turn.say.undrawn",
+    "turn.say.unfit",
+    "turn.say.other_drawing",
+    "turn.say.neither_end",
     "turn.say.undone",
     "turn.say.redone",
     "turn.say.hint_action",
@@ -845,13 +849,15 @@ def written_move(turn: YourTurn, move: PaletteMove) -> dict[str, object]:
 
 
 def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
-    """A pick as data; whatever a move or two points determine is left out."""
+    """A pick as data; left out are what a move or two points determine, no needs, and plane 0."""
     found: dict[str, object] = {"kind": pick.kind}
     if key.isdigit() and int(key) in turn.moves:
         return found
     if pick.kind != "bar":
-        found |= {"name": marked_up(pick.name), "plane": PLANES.index(pick.plane)}
-    if pick.kind not in ("bar", "arrow"):
+        found["name"] = marked_up(pick.name)
+        if pick.plane is not PLANES[0]:
+            found["plane"] = PLANES.index(pick.plane)
+    if pick.needs and pick.kind not in ("bar", "arrow"):
         found["needs"] = pick.needs
     if pick.value is not None:
         found["value"] = written(pick.value)
@@ -862,6 +868,10 @@ def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
     return found
 
 
+DIGITS = 13
+"""The digits of values on a page, whose script compares them to 7."""
+
+
 def written(value: Any) -> object:
     """A value as data: a number, a point [x, y], a line or vector of two, a circle {c, r}."""
     match value:
@@ -870,8 +880,8 @@ def written(value: Any) -> object:
         case Line() | Vector():
             return [written(complex(part)) for part in value]
         case Circle():
-            return {"c": written(complex(value.centre)), "r": float(value.radius)}
+            return {"c": written(complex(value.centre)), "r": written(value.radius)}
         case complex():
-            return [value.real, value.imag]
+            return [written(value.real), written(value.imag)]
         case _:
-            return float(value)
+            return float(f"{value:.{DIGITS}g}")

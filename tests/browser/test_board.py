@@ -286,6 +286,9 @@ PLACE = """letters => {
 
 
 WRONG = {
+    "par o O1A": (5, [], "O1A keeps its length, so vA cannot lie along it", ""),
+    "par o O2B": (6, ["perp O2B o"], "O2B keeps its length, so vB cannot", ""),
+    "perp o'O1A": (18, [], "leaves out the normal component along O1A", ""),
     "par AB a": (6, ["perp O2B o"], "AB keeps its length", "AB would (stretch|shorten) by"),
     "perp AB o": (6, [], "right only where the other end of AB is at rest", "AB would"),
     "perp AC b": (8, [], "mirror image", "AC would (stretch|shorten) by"),
@@ -312,6 +315,34 @@ def test_a_wrong_line_is_answered_with_what_would_come_of_it(kept: Opened, pump:
     assert drawn(page) == known
     page.locator("#hint").click()
     assert page.locator(".halo .wrong").count() == 0
+
+
+UNREAD = {
+    "foo": "Nothing here is called “foo”.",
+    "perp b' AB": "b′ is not drawn yet.",
+    "sim a b C": "b is not drawn yet.",
+    "perp o D": "The action cannot start from these. Perpendicular: through …, to …",
+    "x": "Crossing: line or arc …, and …",
+    "perp A CD": "What is sought now lies in another drawing: Velocity plan.",
+    "par o AB": "o is the image of neither end of AB.",
+    "par o CD": "o is the image of neither end of CD.",
+}
+"""Lines that draw nothing or lead nowhere at the second step of the plan, and what each lacks."""
+
+
+def test_what_a_typed_line_lacks_is_named(kept: Opened, pump: Path):
+    page = begun(kept, pump, 6)
+    for line, lacks in UNREAD.items():
+        assert typed(page, line).startswith(lacks)
+        page.keyboard.press("Escape")
+        assert page.locator("#turn-sentence").inner_text() == ""
+
+
+def test_the_sheet_that_is_drawn_on_stays(kept: Opened, pump: Path):
+    """A right move on the acceleration sheet keeps it, though the velocity sheet is not whole."""
+    page = begun(kept, pump, 12)
+    typed(page, "lay o'aA", "1", "tri B AB vBA")
+    assert page.locator("#sheet-1").is_visible()
 
 
 TURNED = {

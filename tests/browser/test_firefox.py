@@ -14,11 +14,13 @@ import pytest
 
 from graphkin.mechanism import load
 from graphkin.studio.server import Served
-from graphkin.web.step_page import step_page
+from graphkin.web.step_page import step_page, task_page
 from tests.browser.building_hand import SHOWS_ANOTHER, Hand, build_slotted_lever
 from tests.browser.firefox import LOOKS, Firefox
 from tests.browser.opening import LONG, missing
+from tests.browser.test_task_board import TYPED
 from tests.chosen import EVERY
+from tests.web.drawn_logs import VELOCITIES
 
 SIZES = {(1440, 900): 0.60, (1280, 720): 0.60, (820, 1180): 0.45}
 """The least part of a window's height that the drawings take."""
@@ -140,6 +142,58 @@ def test_it_is_led_by_mouse_finger_and_keys(firefox, pump):
     assert firefox.run("return document.querySelectorAll('#results .unknown').length") == 0
     assert firefox.run("return document.documentElement.scrollWidth <= innerWidth")
     assert barred(firefox) == []
+
+
+# --- drawing --------------------------------------------------------------------------------------
+
+LOG = "return Object.entries(localStorage).find(([key]) => key.startsWith('graphkin board'))[1]"
+GIVEN = ".sheet circle[data-name='{}']"
+ENTER, ESCAPE = "\ue007", "\ue00c"
+
+
+def type_lines(window: Firefox, lines: str) -> None:
+    """Type moves as a student does; after a stroke the result to take."""
+    for line in lines.strip().splitlines():
+        text, _, which = line.partition(" /")
+        window.press(*text, ENTER, *which)
+
+
+def test_a_plan_is_drawn_on_the_board_of_a_task_and_kept(firefox, tmp_path):
+    """By keys and by a drag of mouse and finger; what is drawn outlives the page."""
+    path = tmp_path / "pump-task.html"
+    path.write_text(task_page(load("pump"), "en"), encoding="utf-8")
+    firefox.open(path, "", (1440, 900), "still")
+    firefox.press(ESCAPE)
+    type_lines(firefox, TYPED)
+    assert firefox.run(LOG) == VELOCITIES
+    firefox.run("document.querySelector('#palette [data-action=join]').click()")
+    firefox.run("document.querySelector('#desk').scrollIntoView()")
+    ends = [firefox.run(PLACE, GIVEN.format(letter)) for letter in ("O1", "O2")]
+    firefox.drag(*ends)
+    assert firefox.run(LOG) == f"{VELOCITIES}|join 0:O1 0:O2"
+    firefox.run("document.querySelector('#turn-undo').click()")
+    firefox.drag(*ends[::-1], "touch")
+    drawn = f"{VELOCITIES}|join 0:O2 0:O1"
+    assert firefox.run(LOG) == drawn
+    assert barred(firefox) == []
+    firefox.open(path, "", (820, 1180), "dark")
+    assert firefox.run(LOG) == drawn
+    assert firefox.run("return document.querySelectorAll('.halo .vector').length") > 0
+    assert firefox.run("return document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_a_turn_outlives_its_page(firefox, pump):
+    """A right line, a wrong one with what would come of it, and the page opened again."""
+    firefox.open(pump, "#step=6", (1280, 720), "still")
+    firefox.run("document.getElementById('turn').click()")
+    type_lines(firefox, "perp O2B o\npar AB a")
+    told = firefox.run("return document.getElementById('turn-say').textContent")
+    assert told.startswith("AB keeps its length, so vBA cannot lie along it. AB would ")
+    count = firefox.run("return document.getElementById('turn-count').textContent")
+    firefox.open(pump, "#step=6", (1280, 720), "forced")
+    assert firefox.run("return document.getElementById('turn-count').textContent") == count
+    firefox.run("document.getElementById('turn-undo').click()")
+    assert firefox.run("return document.getElementById('turn-count').textContent") != count
 
 
 # --- the studio ----------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from pathlib import Path
 from shutil import copytree
 from typing import Any
@@ -24,7 +25,7 @@ from tests.web.drawn_logs import RING as GEARS
 
 TYPED = """
 ray O1 44
-off O1 44 60 /1
+off O1 44 60
 A
 arc A AB
 arc O2 O2B
@@ -57,17 +58,17 @@ d
 RO = words("ro")
 RING = """
 ray O φ
-off O φ OP /1
+off O φ OP
 P
-off O φ 60 /1
+off O φ 60
 T1
 ray P -20
-off P -20 PQ /1
+off P -20 PQ
 Q
-off O φ 20 /1
+off O φ 20
 T2
 ray O 40
-off O 40 OS /1
+off O 40 OS
 S
 perp o OP
 off o OP 60 /1
@@ -127,6 +128,44 @@ def test_the_board_says_why_nothing_can_be_drawn(opened: Opened, folder: Path, l
     page.locator("#turn-draw").click()
     assert page.locator("#turn-say").inner_text().endswith(f". {RO(f'board.{NOTHING[lines]}')}")
     assert log_of(page).count(BETWEEN) == 1
+
+
+def test_a_ray_is_followed_from_its_start_in_its_own_direction(opened: Opened, folder: Path):
+    """A length on it is laid off at once; from another point, or along a line, there are two."""
+    page = fresh(opened, page_of(folder))
+    for lines, asks in (
+        ("ray O1 230\noff O1 230 60", False),
+        ("A\noff A 230 60", True),
+        ("par O2 5\noff O2 5 60", True),
+    ):
+        page.keyboard.press("Escape")
+        typed(page, lines)
+        assert page.locator("#which").is_visible() == asks
+    assert log_of(page) == "ray 0:O1 230deg|off 0:O1 1 60mm|name 2 0:A|par 0:O2 g:5"
+
+
+def test_a_line_that_draws_nothing_is_told_why(opened: Opened, folder: Path):
+    page = fresh(opened, page_of(folder))
+    say = page.locator("#turn-say")
+    for line, key, fields in (
+        ("perp foo AB", "unread", {"text": "foo"}),
+        ("perp a AB", "undrawn", {"name": "a"}),
+        ("sim a o C", "undrawn", {"name": "a"}),
+    ):
+        typed(page, line)
+        assert say.inner_text() == RO(f"turn.say.{key}", **fields)
+    typed(page, "perp o O1")
+    assert say.inner_text().startswith(RO("turn.say.unfit"))
+
+
+def test_a_saved_drawing_is_told(opened: Opened, folder: Path, tmp_path: Path):
+    page = fresh(opened, page_of(folder))
+    typed(page, "ray O1 44\noff O1 44 60\nA")
+    save(page, tmp_path)
+    told = page.locator("form.answers .status").inner_text()
+    fields = page.locator("form.answers [name]:not([type=hidden])").count()
+    said = {"file": "0042-answers.csv", "moves": 3, "count": 0, "all": fields}
+    assert told == RO("answers.saved_drawn", **said)
 
 
 WRITTEN = 500
@@ -284,6 +323,34 @@ def test_a_mistake_is_red_and_what_follows_from_it_green(folder: Path, run: Run,
     assert told.count('r="2.20" stroke="#c21807"') == 1  # a alone
 
 
+WRONG = {
+    "along_bar": VELOCITIES.replace("perp 16 A-B", "par 16 A-B"),
+    "pole": VELOCITIES.replace("perp 16 A-B", "perp 1: A-B"),
+    "mirrored": VELOCITIES.replace("perp 16 A-C|perp 20 B-C", "perp 20 A-C|perp 16 B-C"),
+    "across_guide": VELOCITIES.replace("par 1: g:5", "perp 1: g:5"),
+    "normal_forgotten": PUMP.replace("perp 37 A-B", "perp 31 A-B"),
+    "normal_turned": PUMP.replace("lay 31 36", "lay 31 36 /1"),
+    "tangential_along_bar": PUMP.replace("perp 37 A-B", "par 37 A-B"),
+}
+"""Wrong constructions by the key of the sentence that names each; the last three are of b′."""
+
+
+@pytest.mark.parametrize("key", WRONG)
+def test_a_wrong_construction_is_named(folder: Path, run: Run, tmp_path: Path, key: str):
+    """Its sentence follows the remark on its point; what is found from that point follows."""
+    answers = tmp_path / "answers"
+    answers.mkdir()
+    text = f"field,value\nid,0042\ndrawing,{WRONG[key]}\n"
+    (answers / "0042-answers.csv").write_text(text, "utf-8")
+    graded(run, folder, answers, tmp_path / "report")
+    told = (tmp_path / "report" / "feedback" / "0042.html").read_text(encoding="utf-8")
+    told = re.sub("<[^>]+>", "", told)
+    parts = [re.split(r"\{\w+\}", RO.sentences[f"turn.wrong.{each}"]) for each in WRONG]
+    found = [re.search(".{1,9}".join(map(re.escape, each)), told) is not None for each in parts]
+    assert [each for each, is_said in zip(WRONG, found, strict=True) if is_said] == [key]
+    assert told.count(RO.sentences["marked.wrong"].rpartition("} ")[2]) == 1
+
+
 def test_both_plans_earn_what_they_would_on_paper(folder: Path, run: Run, tmp_path: Path):
     answers = tmp_path / "answers"
     answers.mkdir()
@@ -308,7 +375,7 @@ def test_a_log_of_nobody_waits_and_harms_no_one(folder: Path, run: Run, tmp_path
 
 def test_what_is_drawn_is_kept_taken_back_and_drawn_again(opened: Opened, folder: Path):
     page = fresh(opened, page_of(folder, "0043"))
-    typed(page, "ray O1 48\noff O1 48 60 /1\nA\narc A AB")
+    typed(page, "ray O1 48\noff O1 48 60\nA\narc A AB")
     whole = log_of(page)
     page.wait_for_timeout(WRITTEN)
     page.reload()
@@ -339,10 +406,10 @@ def test_a_lab_may_let_its_page_say_what_is_right(opened: Opened, run: Run, tmp_
     run("sheet", lab, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
     page = fresh(opened, tmp_path / "pump-task.html")
     say = page.locator("#turn-say")
-    typed(page, "ray O1 44\noff O1 44 55 /1\nA")
+    typed(page, "ray O1 44\noff O1 44 55\nA")
     say.filter(has_text="A is not at its place.").wait_for()
     page.locator("#turn-undo").click()
-    typed(page, "off O1 44 60.4 /1\nA")
+    typed(page, "off O1 44 60.4\nA")
     say.filter(has_text="A: right.").wait_for()
 
 

@@ -433,6 +433,7 @@ def test_a_class_is_decided_with_single_keys(report: Path, chromium: Any) -> Non
             page.goto(found.address)
             page.wait_for_selector("body[data-ready=yes]")
             assert barred(page) == []
+            assert page.locator("#card").is_visible() and not page.locator("#paper").is_visible()
             if scheme == "light":
                 decided_by_keys(page, report)
             assert not errors

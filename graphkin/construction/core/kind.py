@@ -12,7 +12,7 @@ from msgspec.structs import asdict
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.palette import KnownError, Picks
+from graphkin.construction.core.palette import ErrorPicks, KnownError
 from graphkin.construction.core.program import OwnStep, Program, Roles, Step
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import Action
@@ -164,7 +164,7 @@ class Construction(Roles, frozen=True):
         """The vector equations of a plan, or of a centre, that belong to the step of a role."""
         yield from ()
 
-    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
         """The wrong moves that students make in place of those that draw its steps."""
         yield from ()
 

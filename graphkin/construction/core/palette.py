@@ -134,14 +134,21 @@ def normal_towards(things: DrawnThings, point: str, bar: str, velocity: str) -> 
     return [reach * (-dot(speed, speed) / dot(reach, reach))]
 
 
-class Picks(Protocol):
-    """The things that can be picked on a page, by the steps that they lie on; None for others."""
+class ErrorPicks(Protocol):
+    """The things that known errors start from, by the steps that they lie on; None for others."""
 
     def point_or_line(self, number: int) -> str | None:
         """A point, line or arc."""
 
     def bar(self, p: int, q: int) -> str | None:
         """The bar between two points of the mechanism."""
+
+    def pole_of(self, number: int) -> str | None:
+        """The pole of the plan in which a step lies."""
+
+
+class Picks(ErrorPicks, Protocol):
+    """The things that can be picked on a page, by the steps that they lie on; None for others."""
 
     def arrow(self, tail: int, tip: int, name: str = "") -> str | None:
         """The vector between two points of a plan."""
@@ -343,12 +350,12 @@ TRANSFER = PaletteAction(
 )
 
 
-def two(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+def two(picks: ErrorPicks, number: int, args: tuple[int, ...]) -> Picked:
     """The first two inputs of a step."""
     return picks.point_or_line(args[0]), picks.point_or_line(args[1])
 
 
-def point_and_bar(picks: Picks, number: int, args: tuple[int, ...]) -> Picked:
+def point_and_bar(picks: ErrorPicks, number: int, args: tuple[int, ...]) -> Picked:
     """A point, and the bar between two other points."""
     return picks.point_or_line(args[0]), picks.bar(args[1], args[2])
 

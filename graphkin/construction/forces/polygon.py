@@ -17,9 +17,9 @@ from graphkin.construction.core.naming import TINY, way_of
 from graphkin.construction.core.palette import (
     PARALLEL,
     PERPENDICULAR,
+    ErrorPicks,
     KnownError,
     Move,
-    Picks,
     two,
 )
 from graphkin.construction.core.pen import Pen
@@ -174,7 +174,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
         """The side along a line; at the corner the side that ends there."""
         return symbol(self.first if role == "one" else self.last)
 
-    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
         """The side of a block along its guide, or across the bar along which it acts."""
         for line, way in zip((self.one, self.other), self.ways, strict=True):
             start, *ends = steps[line].args

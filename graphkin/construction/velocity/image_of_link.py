@@ -21,9 +21,9 @@ from graphkin.construction.core.kind import (
 from graphkin.construction.core.palette import (
     COINCIDE,
     PERPENDICULAR,
+    ErrorPicks,
     KnownError,
     Move,
-    Picks,
     place_and_image,
 )
 from graphkin.construction.core.pen import Pen, letter
@@ -157,7 +157,7 @@ class ImageOfLink(Construction, frozen=True, kw_only=True):
         assert isinstance(kind, CrossedImage)
         return kind
 
-    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
         """The sides of its link drawn from each other's images: the triangle on the other side."""
         if self.hand is None:
             return

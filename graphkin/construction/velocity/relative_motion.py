@@ -22,9 +22,9 @@ from graphkin.construction.core.naming import letter_at, vector_of, way_of
 from graphkin.construction.core.palette import (
     PARALLEL,
     PERPENDICULAR,
+    ErrorPicks,
     KnownError,
     Move,
-    Picks,
     point_and_bar,
     two,
 )
@@ -227,7 +227,7 @@ class PerpendicularThrough(AboutPivot, frozen=True, kw_only=True):
         """Euler's theorem."""
         yield self.euler(drawing)
 
-    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
         """A line along the bar, and one from the pole, as if the moving pivot were at rest."""
         start, square = point_and_bar(picks, self.line, steps[self.line].args)
         yield KnownError(self.along_bar, self.line, PARALLEL, (start, square))
@@ -249,7 +249,9 @@ def perpendicular_through(pen: Pen, pivot: str, pin: str) -> int:
     return line
 
 
-def forgotten(picks: Picks, steps: Sequence[Step], number: int) -> tuple[str, str | None] | None:
+def forgotten(
+    picks: ErrorPicks, steps: Sequence[Step], number: int
+) -> tuple[str, str | None] | None:
     """The component that ends at a step as one left out: its key, and the point before it."""
     laid = construction(steps[number])
     if not isinstance(laid, LaidOff) or not laid.component.forgotten:
@@ -303,7 +305,7 @@ class ParallelThrough(AlongGuide, frozen=True, kw_only=True):
         if sought := self.found_on_it(drawing):
             yield self.motion_of(drawing, sought)
 
-    def errors(self, picks: Picks, steps: Sequence[Step]) -> Iterator[KnownError]:
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
         """A line across the guide, and one without the known component."""
         inputs = start, guide = two(picks, self.line, steps[self.line].args)
         yield KnownError("turn.wrong.across_guide", self.line, PERPENDICULAR, inputs)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import ClassVar
 
 from graphkin.construction.core.drawn_scene import Drawing
@@ -26,9 +26,16 @@ from graphkin.construction.core.naming import (
     turning_with,
     vector_of,
 )
-from graphkin.construction.core.palette import LAYS_OFF, Move
+from graphkin.construction.core.palette import (
+    LAYS_OFF,
+    PARALLEL,
+    PERPENDICULAR,
+    ErrorPicks,
+    KnownError,
+    Move,
+)
 from graphkin.construction.core.pen import Pen, about, against, component_arrow, letter
-from graphkin.construction.core.program import OwnStep, Plane
+from graphkin.construction.core.program import OwnStep, Plane, Step
 from graphkin.construction.core.quantities import EPSILON, OMEGA, in_mm
 from graphkin.construction.core.relation import Relation, answer, figure, length_of
 from graphkin.construction.core.vocabulary import action, difference, speed_at_rim, sum_of
@@ -197,6 +204,12 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
             if self.image not in drawing.auxiliary:
                 yield self.by_turning(drawing, self.omega, "")
 
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line along the bar."""
+        start, pivot, pin, _ = steps[self.image].args
+        inputs = picks.point_or_line(start), picks.bar(pivot, pin)
+        yield KnownError("turn.wrong.along_bar", self.image, PARALLEL, inputs)
+
     def known_by(self, drawing: Drawing) -> str:
         """Perpendicular to its bar, by the rate of a driver; empty for other links."""
         rate = rate_symbol(drawing, self.omega)
@@ -264,6 +277,12 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
 
     def index_at(self, role: str) -> str:
         return self.index
+
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line without the normal component."""
+        start, pivot, pin, *_ = steps[self.end].args
+        inputs = picks.point_or_line(start), picks.bar(pivot, pin)
+        yield KnownError("turn.wrong.normal_forgotten", self.end, PERPENDICULAR, inputs)
 
     # --- its sentences ---------------------------------------------------------------------------
 

@@ -195,7 +195,7 @@ function panels() {
     ".of-drawing": held !== null,
     ".of-marks": held === null,
   })) {
-    for (const part of document.querySelectorAll(kind)) part.hidden = out;
+    for (const part of document.querySelectorAll(kind)) part.toggleAttribute("hidden", out); // an SVG has no property for it
   }
 }
 

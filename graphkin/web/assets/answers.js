@@ -14,7 +14,9 @@ import {
   minus,
   moves,
   moves_left,
+  next_move,
   ORDER,
+  part_of,
   picks,
   reasons_of,
   results_of,
@@ -58,8 +60,11 @@ export function refuse_other(meant, action, value, plane, given) {
   refuse_move(turned ? `${said} ${worded(turned, { about })}` : said, meant);
 }
 
-/** The moves that are due: what they need is drawn. */
-const moves_due = () => moves_left().filter(step => all_done(moves[step].needs));
+/** The moves of this part of the work that are due: what they need is drawn. */
+const moves_due = () =>
+  moves_left().filter(
+    step => all_done(moves[step].needs) && part_of(step) === part_of(next_move()),
+  );
 
 /** Say why a choice is wrong: as a known error, or by the most similar move that is due. */
 export function why_wrong(action, given, found, plane) {
@@ -67,11 +72,7 @@ export function why_wrong(action, given, found, plane) {
   const known = known_error(action, given);
   if (known) return refuse_move(known.words, known.step);
   const near = nearest_due(action, given);
-  if (!near)
-    return refuse_move(
-      worded(["line", "circle"].includes(shape_of(action)) ? "nowhere_line" : "nowhere"),
-      null,
-    );
+  if (!near) return refuse_move(why_nowhere(action, given, plane), null);
   const { step, inputs, first } = near,
     name = key => picks[key].name;
   const others = inputs
@@ -93,8 +94,26 @@ export function why_wrong(action, given, found, plane) {
   );
 }
 
-/** The move that is due and most similar to a wrong one, with the first input that differs; only of things that are there. */
+/** What is wrong with a result that resembles nothing that is due. */
+function why_nowhere(action, [start, along], plane) {
+  const due = moves_due(),
+    next = moves[due[0]]?.plane;
+  if (next in turning.plans && due.every(step => moves[step].plane !== plane))
+    return worded("other_drawing", { plan: turning.plans[next] });
+  if (!["line", "circle"].includes(shape_of(action))) return worded("nowhere");
+  const shown = turning.places[start] ?? [];
+  return shown.length && picks[along]?.kind === "bar" && !picks[along].on.some(is_in(shown))
+    ? worded("neither_end", { chosen: picks[start].name, along: picks[along].name })
+    : worded("nowhere_line");
+}
+const is_in = shown => end => shown.includes(end);
+
+/**
+ * The move that is due and most similar to a wrong one, with the first input that differs; only of things that are there.
+ * A line from the pole is similar only to one along the same bar or guide, for most lines start there.
+ */
 function nearest_due(action, given) {
+  const of_pole = shape_of(action) === "line" && !picks[given[0]].needs.length;
   return moves_due()
     .filter(step => moves[step].action === action)
     .map(step => {
@@ -107,7 +126,10 @@ function nearest_due(action, given) {
         weight: 2 * count_alike(inputs, given) + Number(inputs[0] === given[0]),
       };
     })
-    .filter(({ weight, first, inputs }) => weight >= 2 && first >= 0 && inputs.every(is_there))
+    .filter(
+      ({ weight, first, inputs }) =>
+        weight >= 2 && first >= 0 && !(of_pole && first) && inputs.every(is_there),
+    )
     .sort((a, b) => b.weight - a.weight)[0];
 }
 
@@ -120,10 +142,10 @@ function reason_key(action, slot) {
   );
 }
 
-/** An error that the construction of a move left to be made knows, with what would come of it. */
+/** An error that the construction of a move knows, with what would come of it; moves left to be made come first. */
 function known_error(action, given) {
-  for (const step of moves_left()) {
-    const error = (moves[step].errors ?? []).find(
+  for (const step of [...moves_left(), ...turn.done]) {
+    const error = (moves[step]?.errors ?? []).find(
       ([, by, ...inputs]) => by === action && inputs.every((key, i) => key === given[i]),
     );
     if (!error) continue;

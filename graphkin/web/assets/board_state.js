@@ -12,6 +12,7 @@ export const UNITS = { length: ["mm", "mm"], angle: ["deg", "°"], rate: ["rad",
 export const MOST_MOVES = 400,
   MOST_SIGNS = 4000; // as in graphkin.construction.board
 
+const palette = palette_of(turning, () => true, { ACTIONS, drawn_by });
 export const {
   plus,
   minus,
@@ -22,11 +23,22 @@ export const {
   value_of,
   plane_of,
   results_of,
-  choices_of,
   likewise,
   same_value,
   shape_of,
-} = palette_of(turning, () => true, { ACTIONS, drawn_by });
+} = palette;
+
+/**
+ * The results from which the student chooses; a ray is followed from its start in its own direction alone.
+ * @param {string} action
+ * @param {string[]} given
+ */
+export function choices_of(action, given) {
+  const found = palette.choices_of(action, given),
+    [start, on] = given,
+    [drawn, [from]] = turn.lines[Number(on?.slice(3)) - 1] ?? ["", []];
+  return action === "set_off" && drawn === "ray" && from === start ? found.slice(0, 1) : found;
+}
 
 /** @type {Turn} */
 export const turn = {
@@ -66,6 +78,17 @@ export const lettered = () =>
       .filter(([action]) => action === "name")
       .map(([, [point, letter]]) => [letter, point]),
   );
+
+/** The letters that no point has yet, and the bars and vectors between those. */
+export const absent_names = () =>
+  [
+    ...Object.entries(turning.letters).map(([letter, { name }]) => [letter, name]),
+    ...[turning.bars, turning.arrows].flatMap(pairs =>
+      Object.entries(pairs).map(([key, [, , name]]) => [key, name]),
+    ),
+  ]
+    .filter(([key]) => !picks[key] && !lettered()[key])
+    .map(([, name]) => name);
 
 /** The name of a thing that has no letter. */
 function plain_name(key, [action, given]) {

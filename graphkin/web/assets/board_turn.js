@@ -3,6 +3,7 @@ export { TYPED } from "./board_actions.js";
 export { draw_own, show_turn } from "./board_marks.js";
 export { check_move, is_letter, number_field, tell_hint, typed_numbers } from "./board_moves.js";
 export {
+  absent_names,
   action_name,
   add_line,
   CHOICE,

@@ -126,7 +126,8 @@ export function make_move(step, how, words, way = moves[step]) {
       .filter(came)
       .map(([one]) => Number(one)),
   ];
-  turn.sheet = null;
+  const { sheet } = moves[step];
+  turn.sheet = moves_left().some(one => moves[one].sheet === sheet) ? sheet : null; // until it is whole
   forget_inputs();
   const done = moves_left().every(one => part_of(one) !== part_of(step));
   tell_turn(done ? `${words} ${worded("part_drawn", { part: part_name(step) })}` : words);

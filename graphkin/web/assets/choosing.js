@@ -27,6 +27,7 @@ export function draw_move() {
     const at_keys = keys_within();
     turn.asked = Object.assign(choices, { plane, given });
     tell_turn(worded("which"));
+    byId("turn-sentence").replaceChildren(); // what an earlier move has found
     show_picks();
     if (at_keys) byId("which").querySelector("button").focus({ preventScroll: true });
     return;

@@ -165,7 +165,13 @@ function save() {
   const bad = fields.filter(judge);
   const empty = fields.filter(field => !clean(field.value));
   const count = fields.length - empty.length;
-  status.textContent = say("saved", { file: name, count, all: fields.length });
+  const moves = drawing?.value.split("|").filter(Boolean).length ?? 0; // as board_state.js writes them
+  status.textContent = say(moves ? "saved_drawn" : "saved", {
+    file: name,
+    moves,
+    count,
+    all: fields.length,
+  });
   if (count && empty.length) list("empty", empty.slice(0, NAMED), empty.length > NAMED);
   if (bad.length) list("unread", bad, false);
 }

@@ -3,6 +3,7 @@ export { TYPED } from "./page_actions.js";
 export { add_line, check_move, draw_own } from "./checking.js";
 export { tell_hint } from "./hints.js";
 export {
+  absent_names,
   action_name,
   CHOICE,
   choices_of,

@@ -25,6 +25,10 @@ function followed({ moves, picks, words }) {
       Object.assign(pick, { name: ends.map(({ name }) => name).join(""), plane: 0 });
     if (ends.length) pick.needs = [...new Set(ends.flatMap(({ needs }) => needs))];
   };
+  for (const pick of Object.values(picks)) {
+    pick.needs ??= [];
+    pick.plane ??= 0;
+  }
   for (const [step, move] of Object.entries(moves)) {
     // in the order of the program
     for (const key of move.inputs) of_ends(key);

@@ -118,10 +118,15 @@ function ask_inputs() {
   if (turn.hinted && turn.grade > 2 && moves[turn.hinted].action === turn.action)
     return tell_hint();
   if (turn.wrong) byId("turn-sentence").replaceChildren(); // the reason of an earlier choice
-  const list = slot_words()
-    .map((word, i) => `${word} ${turn.inputs[i] ? picks[turn.inputs[i]].name : "…"}`)
+  tell_turn(slots_asked(turn.action, turn.inputs));
+}
+
+/** What an action starts from, in words, with the inputs that it has. */
+export function slots_asked(action, inputs = []) {
+  const list = slot_words(action)
+    .map((word, i) => `${word} ${inputs[i] ? picks[inputs[i]].name : "…"}`)
     .join(", ");
-  tell_turn(worded("hint", { action: action_name(turn.action), list }));
+  return worded("hint", { action: action_name(action), list });
 }
 
 /** Let go of everything taken; the chosen action stays. */

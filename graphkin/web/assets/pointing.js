@@ -204,7 +204,7 @@ function foot_on({ at, from, to }, place) {
  */
 function show_coming({ action, inputs }, value) {
   const plane = plane_of(action, inputs),
-    results = value ? [value] : results_of(action, inputs);
+    results = value ? [value] : choices_of(action, inputs);
   const named = ["perpendicular", "parallel", "compass", "join"].includes(action)
     ? named_from(
         action,

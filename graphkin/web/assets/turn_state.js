@@ -61,6 +61,11 @@ let left_turn = null; // the current turn with its moves and picks; a turn that 
 export const all_done = steps => steps.every(step => turn.done.has(step));
 export const is_there = key =>
   all_done(picks[key].needs) && !picks[key].by && here() === (picks[key].sheet ?? here());
+/** The names of the things that are not drawn yet. */
+export const absent_names = () =>
+  Object.keys(picks)
+    .filter(key => !is_there(key))
+    .map(key => picks[key].name);
 const open_goals = () => ORDER.filter(step => moves[step].goal && !turn.done.has(step));
 
 /** The moves still to be made: the goals, and the moves that goals need. */

@@ -1,8 +1,10 @@
 // A move typed as it is written: "⊥ AB a", or with an ASCII word "perp AB a". What would come is shown before Enter.
 import { byId } from "#page";
 import {
+  absent_names,
   action_name,
   is_letter,
+  is_there,
   moves,
   picks,
   results_of,
@@ -15,7 +17,15 @@ import {
 } from "#turn";
 import { draw_move, settle_which } from "./choosing.js";
 import { redo, undo } from "./history.js";
-import { fits, forget_inputs, names_of, plain_words, show_picks, slots_of } from "./picking.js";
+import {
+  fits,
+  forget_inputs,
+  names_of,
+  plain_words,
+  show_picks,
+  slots_asked,
+  slots_of,
+} from "./picking.js";
 import { is_curve, show_aim } from "./pointing.js";
 
 const PLAIN = { "°": "", "′": "'", "″": "''", ν: "n", τ: "t", ω: "w", ε: "e", "−": "-" };
@@ -134,7 +144,7 @@ function typed_ways(line) {
     readings(one, rest, in_order, action !== null)
       .slice(0, 1)
       .map(inputs => ({ action: one, inputs }));
-  if (action) return of(action, false);
+  if (action) return [of(action, true), of(action, false)].find(ways => ways.length) ?? [];
   const own = in_order => (turn.tool ? of(turn.tool, in_order) : []);
   const all = Object.keys(turning.palette).flatMap(one => of(one, true)),
     least = Math.min(...all.map(({ inputs }) => inputs.length));
@@ -160,7 +170,8 @@ export function draw_typed() {
   if (!value.trim() || is_letter(value)) return;
   if (!way) {
     byId("turn-typed").select();
-    return tell_turn(worded("unread", { text: escaped(value) }));
+    byId("turn-sentence").replaceChildren(); // the reason of an earlier move
+    return tell_turn(why_unread(value));
   }
   if (ways.length > 1) {
     const actions = ways.map(each => action_name(each.action)).join(" · ");
@@ -174,6 +185,35 @@ export function draw_typed() {
   [turn.action, turn.inputs] = [way.action, way.inputs];
   show_picks();
   draw_move();
+}
+
+/** Why a typed line draws nothing: a name of nothing, a thing that is not drawn yet, or inputs that do not fit. */
+function why_unread(line) {
+  const [action, rest] = split_action(typed_form(line).trim());
+  const there = Object.keys(picks)
+    .filter(is_there)
+    .flatMap(key => forms_of(key).map(form => [form, ""]));
+  const absent = absent_names().map(name => [
+    typed_form(plain_words(name)).replaceAll(" ", ""),
+    name,
+  ]);
+  let left = rest.trimStart();
+  while (left) {
+    const [word] = left.split(" "),
+      numbers = typed_numbers(left).map(([, form]) => [form, ""]);
+    const [end, name] = [word, left]
+      .map(text =>
+        [...there, ...numbers, ...absent]
+          .map(([form, name]) => [written_length(text, form), name])
+          .reduce((a, b) => (b[0] > a[0] ? b : a), [0, ""]),
+      )
+      .reduce((a, b) => (a[0] ? a : b));
+    if (name) return worded("undrawn", { name });
+    if (!end) return worded("unread", { text: escaped(word) });
+    left = left.slice(end).trimStart();
+  }
+  if (!action) return worded("unread", { text: escaped(line) });
+  return `${rest.trim() ? worded("unfit") : ""} ${slots_asked(action)}`.trim();
 }
 
 const STICKS = ["perpendicular", "parallel", "triangle", "compass"]; // of which several are drawn one after the other
@@ -198,6 +238,7 @@ export function key_in_turn(event) {
   }
   const is_letter_key = key.length === 1 && key !== " " && !with_command && !event.altKey;
   if (is_letter_key && !target.closest("input,select,textarea,svg")) {
+    byId("turn-type").classList.add("keyed"); // there is a keyboard, also where only fingers point
     field.focus({ preventScroll: true }); // the letter is written there
   }
 }
