@@ -27,7 +27,7 @@ from graphkin.construction.forces.force_drawing import ForceDrawing, ForceExtent
 from graphkin.construction.forces.force_plan import undrawn
 from graphkin.construction.forces.lever import LeverPole
 from graphkin.construction.forces.loads import AppliedForce
-from graphkin.construction.forces.polygon import InPolygon, PolygonStart, links_words
+from graphkin.construction.forces.polygon import PolygonStart, links_words
 from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.scaling import curves_drawn, drawing, targets_of
 from graphkin.drawing.field import Field, Rect
@@ -226,14 +226,12 @@ def draw_fields(board: FieldContent, drawing: Drawing, layout: Layout, view: str
         caption(board, layout.lever.rect, drawing.words("page.lever_heading", k=k))
     for number, step, _ in drawing.steps(Plane.FORCES, Plane.LEVER):
         kind = construction(step)
-        field: Field | None = layout.lever
-        if isinstance(kind, InPolygon):
-            field = layout.polygons[kind.polygon]
-        if kind is None or field is None:
+        if kind is None or (step.plane is Plane.LEVER and layout.lever is None):
             continue
         if view == "task" and not isinstance(kind, PolygonStart | LeverPole):
             continue
-        draw_part(PaperCanvas(Plot(board, field, drawing, layout), number), kind)
+        plot = Plot(board, layout.field(step), drawing, layout)
+        draw_part(PaperCanvas(plot, number), kind)
     board.marks += dividers([each.rect for each in rects_of(layout)], board.rect)
 
 

@@ -38,15 +38,18 @@ from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Circle, Line, crossing_sine
 from graphkin.reading.drawn_answers import cell, drawn_items, is_followed
 from graphkin.reading.lettered_points import LetteredSheet
-from graphkin.reading.marked_drawing import GREEN, RED, YELLOW, colour_of, sentence
+from graphkin.reading.marked_drawing import GREEN, RED, YELLOW, colour_of, point_mark, sentence
 from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from graphkin.reading.read_sheet import sheets_of
 from graphkin.reading.wrong_lines import wrong_lines
 from graphkin.text import Words
 from graphkin.text.errors import Refusals
+from graphkin.writers.svg import text_element
 from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
+    from markupsafe import Markup as SafeMarkup
+
     from graphkin.classroom.grading.answers import Answers
 
 DRAWINGS, SEED = 300, 23
@@ -326,7 +329,7 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
         sheet_parts.append(
             (
                 words(f"sheet.{each.sheet.kind}"),
-                [(field, list(shapes(each, field))) for field in fields(each)],
+                [(field, list(shapes(each, field, words))) for field in fields(each)],
                 [(remark_on(each, point, words), LOOKS[colour_of(point)]) for point in points],
             )
         )
@@ -364,10 +367,9 @@ def on_paper(drawn: Sequence[tuple[Field, Sequence[Shape]]], paper: SheetPaper) 
         edge = [(left, top), (right, top), (right, low), (left, low), (left, top)]
         marks += (LineMark(*place(*p), *place(*q), "panel") for p, q in pairwise(edge))
         for shape in every:
-            if shape.tag == "text":
-                x, y, *_ = shape.numbers
-                if field.rect[0] < x < field.rect[2] and top < y < low:
-                    marks.append(Text(*place(x, y), escape(shape.text), shape.look, LETTER))
+            if shape.label is not None:
+                x, y = place(*shape.numbers)
+                marks.append(Text(x, y, shape.label.markup, shape.look, LETTER))
                 continue
             for p, q in pairwise(shape.outline):
                 if (cut := clipped(p, q, field.rect)) is not None:
@@ -398,7 +400,14 @@ class Shape(Struct, frozen=True):
     tag: str
     look: str
     numbers: tuple[float, ...]
-    text: str = ""
+    label: Text | None = None
+
+    @property
+    def svg(self) -> SafeMarkup:
+        """Its label for a browser."""
+        from markupsafe import Markup
+
+        return Markup("" if self.label is None else text_element(self.label))
 
     @property
     def outline(self) -> list[tuple[float, float]]:
@@ -410,7 +419,7 @@ class Shape(Struct, frozen=True):
         return [(x + rest[0] * cos(turn), y + rest[0] * sin(turn)) for turn in turns]
 
 
-def shapes(each: JudgedSheet, field: Field) -> Iterator[Shape]:
+def shapes(each: JudgedSheet, field: Field, words: Words) -> Iterator[Shape]:
     """All that was drawn in a field, then its points in green and red."""
     board, drawing = each.board, each.sheet.drawing
     plane = 0 if field is each.sheet.layout.mechanism else PLANES.index(drawing.plane)
@@ -438,7 +447,7 @@ def shapes(each: JudgedSheet, field: Field) -> Iterator[Shape]:
         if point.at is None or PLANES.index(steps[point.step].plane) != plane:
             continue
         look = LOOKS[colour_of(point)]
-        if point.verdict == "wrong":
-            yield Shape("line", look, (*point.at, *point.own))
-        yield Shape("circle", look, (*point.at, 2.2))
-        yield Shape("text", look, (point.at[0] + 2.6, point.at[1] - 2.6), point.name)
+        mark = point_mark(point, field.rect, words)
+        yield from (Shape("line", look, line) for line in mark.lines)
+        yield Shape("circle", look, (*mark.at, 2.2))
+        yield Shape("text", look, (mark.label.x, mark.label.y), mark.label)

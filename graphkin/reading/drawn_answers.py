@@ -95,7 +95,7 @@ def drawn_row(
             places |= {n: (kind, at) for n, at in found.items() if n not in places}
             settled = settled_points(own[kind], standing)
             verdicts = {point.step: point.verdict for point in settled} | verdicts
-    probe_of = {probe.item.field: probe for probe in probes(sheets.mechanism, form)}
+    probe_of = {probe.item.field: probe for probe in probes(sheets.mechanism.with_forces, form)}
     cells = tuple(cell(probe_of[item.field], places) for item in form)
     followed = [item.field for item in form if is_followed(probe_of[item.field], verdicts)]
     return DrawnRow(taker.student.id, cells, tuple(followed))
@@ -125,6 +125,12 @@ def places_of(sheet: LetteredSheet, record: SheetRecord, standing: Standing) -> 
     for point in settled_points(record, standing):
         if not point.ask:
             found[point.step] = None if point.at is None else complex(*point.at)
+    values = sheet.exact.trace.values
+    for tip, side in sheet.short.items():
+        if side.tail in found:
+            way = sheet.place(tip, values[tip]) - sheet.place(side.tail, values[side.tail])
+            start = found[side.tail]
+            found[tip] = None if start is None else start + complex(way)
     return found
 
 

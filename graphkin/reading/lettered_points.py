@@ -14,10 +14,11 @@ from msgspec import Struct
 
 from graphkin.accuracy.pencil import Original, Paper
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.kind import construction, constructions
 from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join, similar_point
+from graphkin.construction.forces.polygon import DrawnSide, InPolygon
 from graphkin.construction.guides.guide_line import GuideLine
 from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.drawing.field import Field
@@ -67,14 +68,17 @@ class Arrow(Struct, frozen=True):
 
 
 class LetteredSheet(Struct, frozen=True, dict=True):
-    """A student's sheet as it should be drawn, and the page that was printed for it."""
+    """A student's sheet as it should be drawn, and the page that was printed for it.
+
+    On a sheet of forces, the points are the corners of polygons, named by the sides that end there.
+    """
 
     drawing: Drawing
     page: Page
 
     @property
     def kind(self) -> str:
-        """``velocity`` or ``acceleration``."""
+        """``velocity``, ``acceleration`` or ``force``."""
         return self.drawing.kind
 
     @cached_property
@@ -90,8 +94,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     def field(self, number: int) -> Field:
         """The field in which a step is drawn."""
-        step = self.exact.program.steps[number]
-        return self.layout.mechanism if step.plane is Plane.MECHANISM else self.layout.plan
+        return self.layout.field(self.exact.program.steps[number])
 
     def place(self, number: int, value: Any) -> Any:
         """Where a step's value is on paper (complex mm, y down); for a line, where it begins."""
@@ -160,7 +163,7 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         They are ends of components from which lines are drawn, and points of auxiliary plans.
         """
         steps, values = self.exact.program.steps, self.exact.trace.values
-        lettered = set(self.points)
+        lettered = {*self.points, *self.short}
         return tuple(
             number
             for number in self.exact.order
@@ -177,12 +180,49 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         step, value = self.exact.program.steps[number], self.exact.trace.values[number]
         own = step.plane is self.drawing.plane or number in self.on_mechanism
         lettered = bool(step.name) and step.aside is None and step.part in LETTERED
+        lettered |= number in self.ended and number not in self.short
         if not (own and lettered and step.args and step.given is None and not step.arrow):
             return False
         if isinstance(value, Ratio):
             place = self.drawing.place(value)
             return place is not None and self.field(number).holds(place, 2.0)
         return isinstance(value, complex)
+
+    @cached_property
+    def sides(self) -> tuple[tuple[int, DrawnSide], ...]:
+        """The sides of polygons of forces, each with the step with which it is drawn."""
+        found = list[tuple[int, DrawnSide]]()
+        for number, step, _ in self.drawing.steps(self.drawing.plane):
+            if isinstance(kind := construction(step), InPolygon):
+                found += [(number, each) for each in kind.sides_at(step.role)]
+        return tuple(found)
+
+    @cached_property
+    def ended(self) -> Mapping[int, DrawnSide]:
+        """The first side that ends at each corner of a polygon of forces, in order."""
+        found = dict[int, DrawnSide]()
+        for _, side in self.sides:
+            if self.exact.program.steps[side.tip].args:
+                found.setdefault(side.tip, side)
+        return found
+
+    @cached_property
+    def short(self) -> Mapping[int, DrawnSide]:
+        """Those of them that are too short to be seen, so that nothing is read of their ends.
+
+        The student's corner is taken to be where the side puts it.
+        """
+        values = self.exact.trace.values
+        return {
+            tip: side
+            for tip, side in self.ended.items()
+            if abs(values[tip] - values[side.tail]) * self.field(tip).mm < 2 * SHORT
+        }
+
+    def name(self, number: int) -> str:
+        """The letter of a point, or the symbol of the side that ends there."""
+        side = self.ended.get(number)
+        return str(self.exact.program.steps[number].name) if side is None else side.name
 
     @cached_property
     def on_mechanism(self) -> frozenset[int]:
@@ -250,7 +290,8 @@ class LetteredSheet(Struct, frozen=True, dict=True):
         """The tail and tip points of each vector that joins two points."""
         steps = self.exact.program.steps
         joined = (steps[n] for n in self.exact.trace.values if steps[n].action is join)
-        return tuple((step.args[0], step.args[1]) for step in joined if step.arrow)
+        arrows = ((step.args[0], step.args[1]) for step in joined if step.arrow)
+        return (*arrows, *((side.tail, side.tip) for _, side in self.sides))
 
     @cached_property
     def arrows(self) -> tuple[Arrow, ...]:
@@ -267,7 +308,8 @@ class LetteredSheet(Struct, frozen=True, dict=True):
                     if self.is_at(n, value.tail)
                 ]
                 found += [Arrow(number, next(iter(tails), None), tip) for tip in tips[:1]]
-        return tuple(found)
+        sides = ((number, side) for number, side in self.sides if side.tip in self.points)
+        return (*found, *(Arrow(number, side.tail, side.tip) for number, side in sides))
 
     def is_at(self, number: int, place: complex) -> bool:
         """Whether a step of the plan is a point at a place of the plan."""

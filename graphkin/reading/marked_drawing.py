@@ -12,15 +12,18 @@ from collections.abc import Iterator, Sequence
 from math import degrees
 from pathlib import Path
 from time import gmtime
+from typing import Any
 
 from msgspec import Struct
 
 from graphkin.classroom.grading.graded import DrawingRemark
 from graphkin.classroom.printing.edition import Edition, stems
 from graphkin.classroom.roster.students import Taker
-from graphkin.construction.core.quantities import MOTION
-from graphkin.drawing.field import A3, SheetPaper
-from graphkin.drawing.richtext import font_file
+from graphkin.construction.core.quantities import PLANES
+from graphkin.drawing.field import A3, Rect, SheetPaper
+from graphkin.drawing.marks import Text
+from graphkin.drawing.richtext import extent, font_file, runs
+from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.reading.point_reading import PointReading
 from graphkin.reading.read_sheet import SheetRecord
 from graphkin.reading.settled_points import (
@@ -32,6 +35,7 @@ from graphkin.reading.settled_points import (
 )
 from graphkin.text import Words
 from graphkin.text.errors import Refusals
+from graphkin.writers.svg import text_element
 from graphkin.writers.templates import from_template
 
 GREEN, RED, YELLOW, BLUE = "#087a2c", "#c21807", "#c77800", "#0b5cad"
@@ -40,8 +44,13 @@ DENSITY = 5.0
 """Pixels per mm of the picture in a PDF."""
 STILL = gmtime(315532800)
 """The fixed date of every PDF, so that the same readings give the same bytes."""
-LINE, MARGIN = 34, 30
-"""Height of a line of text and margin of a PDF page, in pixels."""
+LINE, MARGIN, SIZE = 34, 30, 3.0
+"""Height of a line of text and margin of a PDF page, in pixels; height of its capitals, in mm."""
+ROOM, BESIDE, BARB, LETTER = 5.0, 3.0, 1.5, 4.0
+"""In mm: from a frame's edge to the mark of a point outside it; from a mark to its label.
+
+Then the length of an arrow's barbs, and the height of a label's capitals.
+"""
 
 
 class MarkedSheet(Struct, frozen=True):
@@ -51,7 +60,7 @@ class MarkedSheet(Struct, frozen=True):
     picture: bytes
     points: tuple[PointReading, ...]
     lines: tuple[tuple[str, str], ...]
-    """The remarks on the whole plan, on each point, and on other places, with their colours."""
+    """The remarks on the whole plan, on each point, and on other places, as markup with colours."""
     pins: tuple[DrawingRemark, ...] = ()
     paper: SheetPaper = A3
 
@@ -67,7 +76,7 @@ def drawings_of_class(
     for taker, name in zip(opened.takers, names, strict=True):
         spoken = words.in_language(taker.spoken) if taker.spoken else words
         with refusals.alone(taker.student.called):
-            own = [records[key] for kind in MOTION if (key := (taker.code, kind)) in records]
+            own = [records[key] for kind in PLANES if (key := (taker.code, kind)) in records]
             sheets = [marked_sheet(folder, each, taker, settled, spoken) for each in own]
             if sheets and "html" in kinds:
                 found[f"{name}-drawing.html"] = as_page(sheets, spoken)
@@ -88,7 +97,7 @@ def marked_sheet(
     head = words("marked.head", sheet=words(f"sheet.{record.kind}"), who=who)
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
     pins = tuple(remarks_on(record, settled))
-    pinned = ((f"{each.number}. {each.text}", BLUE) for each in pins)
+    pinned = ((escape(f"{each.number}. {each.text}"), BLUE) for each in pins)
     causes = () if record.cause is None else record.cause.sentences(words)
     whole = ((cause, RED) for cause in causes)
     lines = (*whole, *said_of(points, notes, words), *pinned)
@@ -119,7 +128,7 @@ def said_of(
             continue  # a point placed by hand that no mark depends on
         text = sentence(point, words)
         note = notes.get(point.step, "")
-        yield f"{text}. {note}" if note else text, colour_of(point)
+        yield f"{text}. {escape(note)}" if note else text, colour_of(point)
 
 
 def colour_of(point: PointReading) -> str:
@@ -130,15 +139,16 @@ def colour_of(point: PointReading) -> str:
 
 
 def sentence(point: PointReading, words: Words) -> str:
-    """The remark on one point."""
+    """The remark on one point, as markup."""
+    name = symbol(point.name, signs=words.signs)
     if point.ask or point.verdict == "unread":
-        return words("marked.open", point=point.name)
+        return words("marked.open", point=name)
     if point.at is None or point.verdict in ("missing", "right"):
-        return words("marked.missing" if point.at is None else "marked.right", point=point.name)
+        return words("marked.missing" if point.at is None else "marked.right", point=name)
     at, own, key = complex(*point.at), complex(*point.own), complex(*point.key)
     if point.verdict == "follows":
-        return words("marked.follows", point=point.name, far=tenths(abs(at - key), words))
-    text = words("marked.wrong", point=point.name, off=tenths(abs(at - own), words))
+        return words("marked.follows", point=name, far=tenths(abs(at - key), words))
+    text = words("marked.wrong", point=name, off=tenths(abs(at - own), words))
     if point.tail is None:
         return text
     tail = complex(*point.tail)
@@ -146,7 +156,8 @@ def sentence(point: PointReading, words: Words) -> str:
         return text
     turn = tenths(abs(degrees(phase((at - tail) / (own - tail)))), words)
     length = tenths(abs(abs(at - tail) - abs(own - tail)), words)
-    return f"{text}: {words('marked.turned', tail=point.tail_name, turn=turn, length=length)}"
+    seen_from = symbol(point.tail_name, signs=words.signs)
+    return f"{text}: {words('marked.turned', tail=seen_from, turn=turn, length=length)}"
 
 
 def tenths(value: float, words: Words) -> str:
@@ -154,14 +165,52 @@ def tenths(value: float, words: Words) -> str:
     return words.decimal(f"{value:.1f}")
 
 
+class PointMark(Struct, frozen=True):
+    """The mark of a point in a frame: its place, its label, and what joins it to other places.
+
+    A point outside the frame is marked at the frame's edge, with an arrow that points there.
+    """
+
+    at: tuple[float, float]
+    colour: str
+    label: Text
+    lines: tuple[tuple[float, float, float, float], ...]
+    """A line to where a wrong point should be, and the lines of the arrow."""
+
+
+def point_mark(point: PointReading, frame: Rect, words: Words) -> PointMark:
+    """The mark of a point that has a place, in a frame (mm)."""
+    left, top, right, low = frame
+    place = complex(*point.at or point.own)
+    there = complex(
+        min(max(place.real, left + ROOM), right - ROOM),
+        min(max(place.imag, top + ROOM), low - ROOM),
+    )
+    lines, colour = [], colour_of(point)
+    if colour == RED:
+        lines.append((there, complex(*point.own)))
+    if place != there:
+        way = (place - there) / abs(place - there)
+        tip = there + ROOM * way
+        lines += [(there, tip), *((tip, tip - BARB * way * turn) for turn in (1 + 0.4j, 1 - 0.4j))]
+    name = symbol(point.name, signs=words.signs)
+    width, upper, _ = extent(name, LETTER)
+    x = there.real + BESIDE if there.real + BESIDE + width < right else there.real - BESIDE - width
+    y = there.imag - BESIDE if there.imag - BESIDE + upper > top else there.imag + BESIDE - upper
+    ends = tuple((p.real, p.imag, q.real, q.imag) for p, q in lines)
+    return PointMark((there.real, there.imag), colour, Text(x, y, name, "label", LETTER), ends)
+
+
 def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     """The drawings as one self-contained HTML page."""
+    from markupsafe import Markup
+
     shown = [
         {
             "title": sheet.title,
             "size": [f"{side:g}" for side in (sheet.paper.width, sheet.paper.height)],
             "picture": b64encode(sheet.picture).decode("ascii"),
-            "points": [(point, colour_of(point)) for point in sheet.points],
+            "marks": [(mark, Markup(text_element(mark.label))) for mark in marks_on(sheet, words)],
             "pins": sheet.pins,
             "lines": sheet.lines,
         }
@@ -178,6 +227,22 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     return f"{page}\n".encode()
 
 
+def marks_on(sheet: MarkedSheet, words: Words) -> Iterator[PointMark]:
+    """The marks of a sheet's points."""
+    frame = 0.0, 0.0, sheet.paper.width, sheet.paper.height
+    yield from (point_mark(each, frame, words) for each in sheet.points if each.at is not None)
+
+
+def typeset(pen: Any, text: Text, colour: str) -> None:
+    """Write a marked-up text on a picture."""
+    from PIL import ImageFont
+
+    for run in runs(text.markup, text.height):
+        font = ImageFont.truetype(str(font_file(italic=run.italic)), run.size * DENSITY)
+        place = (text.x + text.left() + run.x) * DENSITY, (text.y + run.y) * DENSITY
+        pen.text(place, run.text, fill=colour, font=font, anchor="ls")
+
+
 def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     """The drawings as a PDF with one page each."""
     from PIL import Image, ImageDraw, ImageFont
@@ -187,25 +252,24 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     for sheet in sheets:
         image = Image.open(io.BytesIO(sheet.picture)).convert("RGB")
         width, height = (round(sheet.paper.width * DENSITY), round(sheet.paper.height * DENSITY))
-        rows = [(sheet.title, "#000000"), *sheet.lines, (words("marked.legend"), "#000000")]
+        legend = escape(words("marked.legend"))
+        rows = [(escape(sheet.title), "#000000"), *sheet.lines, (legend, "#000000")]
         page = Image.new("RGB", (width, height + 2 * MARGIN + LINE * len(rows)), "white")
         page.paste(image.resize((width, height)), (0, 0))
         pen = ImageDraw.Draw(page)
-        for point in sheet.points:
-            if point.at is None:
-                continue
-            (x, y), colour = (part * DENSITY for part in point.at), colour_of(point)
-            pen.ellipse((x - 12, y - 12, x + 12, y + 12), outline=colour, width=4)
-            pen.text((x + 16, y - 34), point.name, fill=colour, font=font)
-            if colour == RED:
-                own = tuple(part * DENSITY for part in point.own)
-                pen.line(((x, y), own), fill=colour, width=3)
+        for mark in marks_on(sheet, words):
+            x, y = (part * DENSITY for part in mark.at)
+            pen.ellipse((x - 12, y - 12, x + 12, y + 12), outline=mark.colour, width=4)
+            typeset(pen, mark.label, mark.colour)
+            for line in mark.lines:
+                pen.line([part * DENSITY for part in line], fill=mark.colour, width=3)
         for pin in sheet.pins:
             x, y = (part * DENSITY for part in pin.at)
             pen.ellipse((x - 17, y - 17, x + 17, y + 17), fill="white", outline=BLUE, width=3)
             pen.text((x, y), str(pin.number), fill=BLUE, font=font, anchor="mm")
         for i, (text, colour) in enumerate(rows):
-            pen.text((MARGIN, height + MARGIN + i * LINE), text, fill=colour, font=font)
+            base = height + MARGIN + i * LINE + SIZE * DENSITY
+            typeset(pen, Text(MARGIN / DENSITY, base / DENSITY, text, "remark", SIZE), colour)
         pages.append(page)
     out = io.BytesIO()
     pages[0].save(

@@ -114,6 +114,8 @@ class PointReader(PointSearch):
         with np.errstate(all="ignore"):
             for number in self.sheet.order:
                 found[number] = self.drawn(number, found, DRAWINGS)
+                if number in self.sheet.short:
+                    self.own[number] = expected(self.sheet.place(number, found[number])).middle
                 if number not in wanted and number not in corners:
                     continue
                 if stale:
@@ -154,7 +156,7 @@ class PointReader(PointSearch):
         plan = [n for n in self.sheet.points if steps[n].plane is plane]
         poles = [n for n, v in exact.items() if steps[n].plane is plane and not steps[n].args]
         poles = [n for n in poles if isinstance(exact[n], complex)]
-        if not poles or all(self.readings[n].verdict in ("right", "follows") for n in plan):
+        if len(poles) != 1 or all(self.readings[n].verdict in ("right", "follows") for n in plan):
             return
         pole = complex(self.sheet.place(poles[0], exact[poles[0]]))
         shafts = [
@@ -196,6 +198,7 @@ class PointReader(PointSearch):
             for number, reading in self.readings.items()
             if reading.verdict in ("right", "follows")
             and steps[number].plane is self.sheet.drawing.plane
+            and steps[number].name
             and reading.name[0] in ALPHABET
         }
         letters = "".join(dict.fromkeys(lettered.values()))
@@ -560,7 +563,7 @@ class PointReader(PointSearch):
             if best is None or best.count < 2 or self.agreement(number, best.place) < DRAWN:
                 self.vaguely.add(number)
         return PointReading(
-            str(self.sheet.exact.program.steps[number].name),
+            self.sheet.name(number),
             number,
             None if place is None else pair(place),
             verdict,
@@ -631,10 +634,10 @@ class PointReader(PointSearch):
         """A known point from which a point is drawn, and its letter."""
         steps = self.sheet.exact.program.steps
         for each in self.sheet.leading[number]:
-            name = steps[each.far].name
+            name = self.sheet.name(each.far)
             plain = not (each.given or each.bow or each.after) and steps[each.far].aside is None
             if plain and name and self.is_known(each):
-                return pair(self.far_place(each, self.next)), str(name)
+                return pair(self.far_place(each, self.next)), name
         return None, ""
 
     def behind(self, number: int) -> frozenset[int]:
@@ -664,7 +667,7 @@ def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading,
     found = []
     for number in sheet.points:
         key = expected(sheet.place(number, keys[number]))
-        name, place = str(sheet.exact.program.steps[number].name), pair(key.middle)
+        name, place = sheet.name(number), pair(key.middle)
         error = round(key.radius, 3)
         found.append(PointReading(name, number, None, "unread", True, place, place, error=error))
     return tuple(found)

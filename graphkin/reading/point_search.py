@@ -21,7 +21,7 @@ from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
-from graphkin.reading.vector_ends import RINGS, is_marked
+from graphkin.reading.vector_ends import RINGS, is_headed, is_marked
 
 CROSSING = 0.12
 """Least sine of the angle between two lines whose crossing gives a point."""
@@ -497,7 +497,9 @@ class PointSearch:
             foot = where.middle - 1j * line.way * line.off(where.middle)
             found = self.ink.stroke(foot, line.way, where.reach)
             if found is not None:
-                shift, along, count = self.ink.node(foot, line.way, where.reach), NODE, 2
+                shift, along, count = self.headed_end(number, line, foot, found.end), NODE, 2
+                if shift is None:
+                    shift = self.ink.node(foot, line.way, where.reach)
                 if shift is None and line.error == PRINTED:
                     shift, along = self.marked_along(foot, line.way, where.reach), SPOT
                     if shift is None:
@@ -518,6 +520,20 @@ class PointSearch:
                 place, error = foot + line.way * shift, along_way(line.way, along, line.error)
                 return LinesCrossing(place, error, count, line.cover, stops)
         return None if any(lines) else self.marked(number, where)
+
+    def headed_end(
+        self, number: int, line: InkLine, foot: complex, end: float | None
+    ) -> float | None:
+        """The end of a line, in mm from a place on it, if the head of a vector to a point is there.
+
+        The sides of that head are no lines that leave the line.
+        """
+        if end is None or all(each.tip != number for each in self.sheet.arrows):
+            return None
+        tip = foot + end * line.way
+        if not is_headed(self.ink, line.start, tip):
+            return None
+        return end + self.ink.runs_on(tip, line.way)
 
     def marked_along(self, foot: complex, way: complex, reach: float) -> float | None:
         """The position along a line, in mm from a place on it, of a marked point, if any."""

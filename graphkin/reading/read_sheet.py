@@ -286,7 +286,8 @@ def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
 
     rubric = found.sheets.lab.rubric
     points = forecast_points(found.sheet, Pencil(rubric.point, rubric.line))
-    needed = {step for each in probes(found.sheets.mechanism, order.marked) for step in each.steps}
+    whole = found.sheets.mechanism.with_forces
+    needed = {step for each in probes(whole, order.marked) for step in each.steps}
     if not needed:
         return points, {}, None
     return tuple(replace(point, ask=point.step in needed) for point in points), {}, None

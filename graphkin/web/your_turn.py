@@ -25,7 +25,7 @@ from graphkin.construction.core.vocabulary import (
 )
 from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.forces.force_drawing import ForceLayout
-from graphkin.construction.forces.polygon import InPolygon, PolygonSide
+from graphkin.construction.forces.polygon import PolygonSide
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.registry import PALETTE, SAID_FIRST
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
@@ -642,10 +642,8 @@ def values_on(sheet: ScreenSheet) -> dict[int, Any]:
         return values
     x, y = layout.plan(0j)
     for number, step, value in sheet.drawing.steps(Plane.FORCES):
-        if isinstance(kind := construction(step), InPolygon):
-            u, v = layout.polygons[kind.polygon](0j)
-            shift = complex(u - x, y - v) / layout.plan.mm
-            values[number] = moved_by(value, shift)
+        u, v = layout.field(step)(0j)
+        values[number] = moved_by(value, complex(u - x, y - v) / layout.plan.mm)
     return values
 
 

@@ -152,20 +152,19 @@ def drawn_sheet(folder: Path, code: str, kind: str, habits: Habits, seed: int) -
 
 
 def lettered_steps(drawing: Drawing) -> list[int]:
-    """The steps of the letters that a hand puts on the sheet, but for pivots and poles."""
+    """The steps of the letters that a hand puts on the sheet, and of corners of polygons.
+
+    Pivots, poles and starts of polygons are printed.
+    """
     found = []
     for planes in ((Plane.MECHANISM,), (drawing.plane,)):
         for number, step, value in drawing.steps(*planes):
             known = step.part in (Part.POSITION, Part.VELOCITY, Part.ACCELERATION)
-            lettered = isinstance(value, complex) and step.name and not step.arrow
-            if lettered and known and step.given is None and step.args:
+            lettered = isinstance(value, complex) and bool(step.name) and not step.arrow and known
+            lettered |= isinstance(value, complex) and step.plane is Plane.FORCES
+            if lettered and step.given is None and step.args:
                 found.append(number)
     return found
-
-
-def field_of(layout: Layout, plane: Plane) -> Field:
-    """The field in which a plane is drawn."""
-    return layout.mechanism if plane is Plane.MECHANISM else layout.plan
 
 
 def erring(drawing: Drawing, habits: Habits, rng: Any, wrong: int | None, layout: Layout) -> Any:
@@ -179,7 +178,7 @@ def erring(drawing: Drawing, habits: Habits, rng: Any, wrong: int | None, layout
             return Ratio(value, 0j, 1.0)
         if step.plane is Plane.NUMBERS or step.arrow or step.given is not None:
             return value
-        mm = field_of(layout, step.plane).mm
+        mm = layout.field(step).mm
         if step.plane not in (Plane.MECHANISM, drawing.plane):
             mm = 1e12
         if isinstance(value, Line):
@@ -237,7 +236,7 @@ def drawn_points(
     found: list[TruePoint] = []
     struck = False
     for number in names:
-        field = field_of(layout, program.steps[number].plane)
+        field = layout.field(program.steps[number])
         value, exact = own.values[number], drawing.trace.values[number]
         at = field(value)
         off = abs(value - exact) * field.mm
@@ -439,7 +438,7 @@ def own_page(drawing: Drawing, own: Any) -> Page:
     """The key of what somebody draws, at the places of the task."""
     mine = replace(drawing, trace=own)
     layout = lay_out(drawing)
-    places = Layout(layout.mechanism, layout.plan, spans(mine, layout))
+    places = replace(layout, spans=spans(mine, layout))
     said = documents.Writing([], [], frozenset())
     return joined(documents.sheet(mine, "key", "1/1", places, said))
 

@@ -6,6 +6,7 @@ import csv
 import io
 import itertools
 import json
+import re
 import secrets
 import shutil
 from collections.abc import Iterator
@@ -39,7 +40,9 @@ from graphkin.reading.drawn_ink import DrawnInk, fitted, offsets, refined
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.marked_drawing import (
     GREEN,
+    RED,
     MarkedSheet,
+    as_page,
     as_pdf,
     drawings_of_class,
     sentence,
@@ -1369,6 +1372,20 @@ def test_the_ring_about_a_point_lies_on_the_printed_page_where_the_point_was_rea
     assert np.median(columns[ring]) / mm == pytest.approx(150, abs=1)
     assert rows.min() / mm > 80
     assert rows.max() / mm < 95
+
+
+def test_a_point_outside_the_paper_is_pointed_at_from_its_edge_with_its_typeset_letter() -> None:
+    """At (-20, 90) mm: its mark is 5 mm inside the left edge, with an arrow to the left."""
+    beyond = PointReading("b_2", 1, (-20.0, 90.0), "wrong", False, (60.0, 90.0), (60.0, 90.0), 80.0)
+    paper = io.BytesIO()
+    Image.new("RGB", (840, 594), "white").save(paper, "JPEG")
+    sheet = MarkedSheet("", paper.getvalue(), (beyond,), ((sentence(beyond, words("en")), RED),))
+    page = as_page([sheet], words("en")).decode()
+    assert 'cx="5.0" cy="90.0"' in page
+    assert '<line x1="5.00" y1="90.00" x2="0.00" y2="90.00"' in page
+    assert "<i>b</i><sub>2</sub>: 80.0 mm" in page
+    assert "b_2" not in page
+    assert re.search(r"<tspan[^>]*italic[^>]*>b</tspan><tspan[^>]*>2</tspan>", page)
 
 
 @pytest.mark.parametrize("drawn", [0.4, 0.6, 1.0])

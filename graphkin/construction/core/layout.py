@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import JoinsPoints, construction
-from graphkin.construction.core.program import Part, Plane
+from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.drawing.field import ABOVE, LEAST_FIELD, MARGIN, Field, Rect, SheetPaper
 from graphkin.drawing.scale import Extent
 from graphkin.numbers.arithmetic import Point, Real, larger, pick, smaller
@@ -42,6 +42,10 @@ class Layout(Struct, frozen=True):
     mechanism: Field
     plan: Field
     spans: Spans
+
+    def field(self, step: Step) -> Field:
+        """The field in which a step is drawn."""
+        return self.mechanism if step.plane is Plane.MECHANISM else self.plan
 
 
 def lay_out(drawing: Drawing) -> Layout:
@@ -189,7 +193,7 @@ def spans(drawing: Drawing, fields: Layout) -> dict[int, tuple[float, float]]:
     """The drawn part of each line and arc: the points on it, and a little beyond."""
     found: dict[int, tuple[float, float]] = {}
     for number, step, value in drawing.steps(Plane.MECHANISM, drawing.plane):
-        mm = (fields.mechanism if step.plane is Plane.MECHANISM else fields.plan).mm
+        mm = fields.field(step).mm
         points = points_on(drawing, number)
         if isinstance(value, Line):
             points += far_points(drawing, number, value)

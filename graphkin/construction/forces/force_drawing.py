@@ -52,6 +52,14 @@ class ForceLayout(Layout, frozen=True):
     polygons: Mapping[int, Field] = {}
     lever: Field | None = None
 
+    def field(self, step: Step) -> Field:
+        """The field in which a step is drawn: its polygon's, or that of the lever."""
+        if step.plane is Plane.LEVER and self.lever is not None:
+            return self.lever
+        if step.plane is Plane.FORCES and isinstance(step.of, InPolygon):
+            return self.polygons[step.of.polygon]
+        return super().field(step)
+
 
 class ForceExtents(NamedTuple):
     """The box of each polygon in N, by its number, and that of the lever in m/s.

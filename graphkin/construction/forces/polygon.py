@@ -7,8 +7,8 @@ meet where the polygon closes.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, ClassVar, NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
@@ -89,10 +89,23 @@ class SideDirection(NamedTuple):
         return f"{'∥' if self.along else '⊥'} {way_of(drawing, self.block)}"
 
 
+class DrawnSide(NamedTuple):
+    """A side of a polygon as it is drawn: its symbol, its style, and its ends."""
+
+    name: str
+    look: str
+    tail: int
+    tip: int
+
+
 class InPolygon(Construction, frozen=True, kw_only=True):
     """A construction in the polygon with the number ``polygon``, in the order of the work."""
 
     polygon: int
+
+    def sides_at(self, role: str) -> tuple[DrawnSide, ...]:
+        """The sides that are drawn with the step of a role."""
+        return ()
 
 
 class PolygonStart(InPolygon, frozen=True, kw_only=True):
@@ -122,13 +135,14 @@ class PolygonSide(InPolygon, frozen=True, kw_only=True):
         """The force."""
         return symbol(self.name)
 
+    def sides_at(self, role: str) -> tuple[DrawnSide, ...]:
+        """The force."""
+        return (DrawnSide(self.name, self.look, self.start, self.corner),)
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the force, unless it is zero."""
-        if not canvas.drawing.settled(abs(canvas.value(self.force))):
-            return
-        draw_force(
-            canvas, self.name, self.look, canvas.value(self.start), canvas.value(self.corner)
-        )
+        if canvas.drawing.settled(abs(canvas.value(self.force))):
+            draw_sides(canvas, self.sides_at(role))
 
 
 class ClosedByLines(InPolygon, frozen=True, kw_only=True):
@@ -185,15 +199,19 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
                 given = picks.point_or_line(start), picks.point_or_line(ends[0])
                 yield KnownError("turn.wrong.along_guide", line, PARALLEL, given)
 
+    def sides_at(self, role: str) -> tuple[DrawnSide, ...]:
+        """Both closing sides, where their lines meet."""
+        if role != "corner":
+            return ()
+        last = DrawnSide(self.last, self.looks[1], self.end, self.corner)
+        return last, DrawnSide(self.first, self.looks[0], self.corner, self.start)
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw both lines, and where they meet both closing sides."""
+        draw_sides(canvas, self.sides_at(role))
         if role != "corner":
             way = self.ways[0 if role == "one" else 1]
             canvas.locus("", way.words(canvas.drawing))
-            return
-        corner = canvas.value(self.corner)
-        draw_force(canvas, self.last, self.looks[1], canvas.value(self.end), corner)
-        draw_force(canvas, self.first, self.looks[0], corner, canvas.value(self.start))
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The instruction: the sides in order, and the lines that close the polygon."""
@@ -252,9 +270,13 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
     closes: bool = False
     first: str = ""
 
+    def sides_at(self, role: str) -> tuple[DrawnSide, ...]:
+        """The reaction."""
+        side = DrawnSide(self.name, REACTION, self.tail, self.tip)
+        return (side,) if role == "arrow" else ()
+
     def marks(self, canvas: Canvas, role: str) -> None:
-        if role == "arrow":
-            draw_force(canvas, self.name, REACTION, canvas.value(self.tail), canvas.value(self.tip))
+        draw_sides(canvas, self.sides_at(role))
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The sum of its parts, or the side that closes the polygon."""
@@ -281,10 +303,17 @@ class ClosingReaction(InPolygon, frozen=True, kw_only=True):
             yield of_side(drawing, self.name, self.tail, self.tip)
 
 
-def draw_force(canvas: Canvas, name: str, look: str, tail: Any, tip: Any) -> None:
+def draw_sides(canvas: Canvas, sides: Iterable[DrawnSide]) -> None:
+    """Draw sides of a polygon."""
+    for each in sides:
+        draw_side(canvas, each)
+
+
+def draw_side(canvas: Canvas, side: DrawnSide) -> None:
     """Draw a side of a polygon; a note says that it is too short to be seen."""
+    name, tail, tip = side.name, canvas.value(side.tail), canvas.value(side.tip)
     if canvas.size(tip - tail) >= TINY:
-        canvas.vector(name, look, tail, tip)
+        canvas.vector(name, side.look, tail, tip)
         return
     drawing, words = canvas.drawing, canvas.drawing.words
     if not (size := drawing.settled(abs(tip - tail))):

@@ -19,11 +19,12 @@ from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.moments import ForceByMoments, Moments, arm, moment_sum
 from graphkin.construction.forces.polygon import (
     REACTION,
+    DrawnSide,
     InPolygon,
     KnownSide,
     Polygon,
     SideDirection,
-    draw_force,
+    draw_sides,
     of_side,
     read_side,
     sides_words,
@@ -96,13 +97,16 @@ class RackForce(InPolygon, frozen=True, kw_only=True):
     force: OwnStep
     corner: OwnStep
 
+    def sides_at(self, role: str) -> tuple[DrawnSide, ...]:
+        """The force."""
+        side = DrawnSide(self.name, REACTION, self.start, self.corner)
+        return (side,) if role == "corner" else ()
+
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the radius of the pitch point, and the force in the polygon."""
+        draw_sides(canvas, self.sides_at(role))
         if role == "pitch":
             canvas.leg(self.name, "ray", canvas.value(self.centre), canvas.value(self.pitch))
-        elif role == "corner":
-            ends = canvas.value(self.start), canvas.value(self.corner)
-            draw_force(canvas, self.name, REACTION, *ends)
 
     def sentence_alone(self, drawing: Drawing, role: str) -> str:
         """The sides in order, and the line of action that closes the polygon with the normal."""
