@@ -156,7 +156,9 @@ class CommandGroup(Command, click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the commands section by section."""
         widest = max(map(len, self.list_commands(ctx)))
-        for title, section in (self.sections or {"Commands": self.commands}).items():
+        for title, section in (
+            self.sections or {"Commands": dict.fromkeys(self.commands, "")}
+        ).items():
             with formatter.section(title):
                 commands = ((name, self.get_command(ctx, name)) for name in section)
                 formatter.write_dl(
