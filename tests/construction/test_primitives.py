@@ -17,10 +17,10 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.errors import UnsatisfiedAssumption
 
+from graphkin.construction import normal_component
 from graphkin.construction.centres.instant_centre import acceleration_pole, instant_centre
 from graphkin.construction.core import vocabulary
 from graphkin.construction.links import dyad_by_arcs
-from graphkin.construction.normal_component import normal_component
 from graphkin.construction.velocity.relative_motion import square_to
 from graphkin.numbers.arithmetic import FLOAT
 from graphkin.numbers.plane import (
