@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import cmath
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from functools import reduce
 from math import ceil, cos, degrees, pi, radians, sin
@@ -389,7 +391,7 @@ def meshes(drawing: Drawing, disc: Disc) -> list[Mesh]:
                 and (touch.other is None or touch.other.module)
             ):
                 shift = 0.0 if disc is touch.disc else 0.5
-                found.append(Mesh(phase(way), shift, overlapping(touch)))
+                found.append(Mesh(cmath.phase(way), shift, overlapping(touch)))
     return found
 
 
@@ -400,7 +402,7 @@ def overlapping(touch: Touch) -> int:
     if other is not None:
         inside = mine.wheel.inside or other.wheel.inside
         bend = abs(bend - 1 / other.radius) if inside else bend + 1 / other.radius
-    half = 2 * sqrt(mine.module / max(bend, 1 / (1000 * mine.radius)))
+    half = 2 * math.sqrt(mine.module / max(bend, 1 / (1000 * mine.radius)))
     return min(max(FEW, ceil(half / (pi * mine.module) + 0.5)), MANY)
 
 
