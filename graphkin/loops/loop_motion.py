@@ -66,7 +66,10 @@ def unknowns_of(loops: Equations, pose: Pose) -> Reals:
 
 
 class PlaceMotion(NamedTuple):
-    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,)."""
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,).
+
+    The same structure holds the bounds of their errors.
+    """
 
     place: Complexes
     velocity: Complexes

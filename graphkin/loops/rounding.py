@@ -9,14 +9,14 @@ sums are of magnitudes, so that no bound depends on errors that cancel.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.loops.equations import UNIT, Equations
-from graphkin.loops.loop_motion import Motion, SlideRates
+from graphkin.loops.loop_motion import Motion, PlaceMotion, SlideRates
 from graphkin.loops.rigid_bodies import Complexes, Reals
 from graphkin.scene.link_points import ends_of
 
@@ -25,14 +25,6 @@ AGAIN = 4
 
 Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Indices = np.ndarray[Any, np.dtype[np.intp]]
-
-
-class PlaceBound(NamedTuple):
-    """Error bounds of a position (m), a velocity (m/s), an acceleration (m/s²): (N, …)."""
-
-    place: Reals
-    velocity: Reals
-    acceleration: Reals
 
 
 class Vectors(Struct, frozen=True, eq=False):
@@ -102,10 +94,10 @@ class Rounding(Struct, frozen=True, eq=False):
 
     motion: Motion
     angles: Reals
-    origin: PlaceBound
+    origin: PlaceMotion
     omega: Reals
     epsilon: Reals
-    points: PlaceBound
+    points: PlaceMotion
     slides: Reals
     regular: Flags
 
@@ -113,22 +105,22 @@ class Rounding(Struct, frozen=True, eq=False):
     def loops(self) -> Equations:
         return self.motion.loops
 
-    def point(self, name: str) -> PlaceBound:
+    def point(self, name: str) -> PlaceMotion:
         """The bounds of a point; ``A@3`` is the point of link 3 under A."""
         point, carrier = ends_of(name)
         p = self.motion.names[point]
         if carrier:
             return self.carried(carrier, self.motion.points.place[:, p], self.points.place[:, p])
-        return PlaceBound(*(row[:, p] for row in self.points))
+        return PlaceMotion(*(row[:, p] for row in self.points))
 
-    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceBound:
+    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceMotion:
         """The bounds of the point of a link at a given place, which has an error of its own."""
         i = self.motion.index[link]
         start, velocity, acceleration = (row[:, i] for row in self.origin)
         arm, off = abs(place - self.motion.origin.place[:, i]), start + error
         omega, epsilon = abs(self.motion.omega[:, i]), abs(self.motion.epsilon[:, i])
         turn, twist = self.omega[:, i], self.epsilon[:, i]
-        return PlaceBound(
+        return PlaceMotion(
             np.asarray(error),
             velocity + off * omega + (arm + off) * turn,
             acceleration
@@ -268,15 +260,15 @@ def rounding(
     rows, off, slower, later = found.position.rows, found.off, found.slower, found.later
     places = found.position.places
     which, turnings = loops.turning_of_link, rows.count
-    every = PlaceBound(found.place, found.velocity, found.acceleration)
+    every = PlaceMotion(found.place, found.velocity, found.acceleration)
     slid = off[:, turnings:] + 2 * places[:, rows.turned_by[turnings:]]
     return Rounding(
         motion=motion,
         angles=off[:, :turnings],
-        origin=PlaceBound(*(row[:, :links] for row in every)),
+        origin=PlaceMotion(*(row[:, :links] for row in every)),
         omega=slower[:, which],
         epsilon=later[:, which],
-        points=PlaceBound(*(row[:, points:] for row in every)),
+        points=PlaceMotion(*(row[:, points:] for row in every)),
         slides=np.stack([slid, slower[:, turnings:], later[:, turnings:]]),
         regular=np.asarray(found.position.regular.all(axis=1)),
     )
