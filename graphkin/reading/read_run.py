@@ -15,8 +15,7 @@ import msgspec
 from msgspec import Struct, field
 
 from graphkin.classroom.printing.edition import Edition
-from graphkin.classroom.printing.print_run import key_of
-from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.printing.print_run import PrintOrder, key_of
 from graphkin.classroom.printing.workers import ENDED, chunks, engine, results
 from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.pictures import Photograph, hash_of_picture

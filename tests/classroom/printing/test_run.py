@@ -16,7 +16,7 @@ from graphkin.classroom.printing import print_run as running
 from graphkin.classroom.printing import print_work
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.print_run import JOURNAL, Means, Outcome, PrintRequest, print_class
-from graphkin.classroom.printing.print_work import make as make_sheets
+from graphkin.classroom.printing.print_run import make as make_sheets
 from graphkin.text.errors import PLAIN_TRACEBACK, PageError
 from graphkin.writers import commit
 from graphkin.writers.commit import LOCK, locked
