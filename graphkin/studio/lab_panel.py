@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from math import isnan
+from cmath import isnan
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from threading import Lock
