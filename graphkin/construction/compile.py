@@ -29,8 +29,8 @@ from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
+from graphkin.construction.normal_component import refuse_unused_method
 from graphkin.construction.plan import Plan, omega_of
-from graphkin.construction.tangential_direction import refuse_unused_method
 from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.numbers.arithmetic import FLOAT, Point, Real
 from graphkin.numbers.plane import Vector

@@ -30,8 +30,8 @@ from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.links.link_shapes import ratio_of
 from graphkin.construction.links.plate_points import crosses_well
+from graphkin.construction.normal_component import BarAcceleration
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
-from graphkin.construction.tangential_direction import BarAcceleration
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     image_of_link,
