@@ -13,8 +13,13 @@ from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, coordinate, difference, product
-from graphkin.construction.guides.guide_line import axis_with_guide, turned_back
-from graphkin.construction.guides.guides import axis, path_of, standing_guide
+from graphkin.construction.guides.guides import (
+    axis,
+    axis_with_guide,
+    path_of,
+    standing_guide,
+    turned_back,
+)
 from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying

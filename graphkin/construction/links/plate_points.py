@@ -24,7 +24,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import similar_point
-from graphkin.construction.guides.guide_line import point_on_link
+from graphkin.construction.guides.guides import point_on_link
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
 from graphkin.construction.links.link_shapes import bar_length, local_place, ratio_of, step_along
