@@ -24,7 +24,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.run import Trace
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.construction.plan import TurningOfLink
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import Point, Real, np, turn_by

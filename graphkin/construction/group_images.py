@@ -256,7 +256,7 @@ class GroupImages(Struct, frozen=True):
         found: int = getattr(pen.drive(driver), self.plan.given)
         against = other_of(driver, link)
         if pen.turns(against):
-            from graphkin.construction.velocity.turning_of_link import summed_rate
+            from graphkin.construction.plan import summed_rate
 
             other = omega_of(pen, against, rate)
             with pen.on(Part.RESULT, Plane.NUMBERS):

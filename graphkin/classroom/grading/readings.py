@@ -32,7 +32,7 @@ from graphkin.classroom.lab.items import motion_of
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import BALANCING_MOMENT, EPSILON, OMEGA, RATES
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.construction.plan import TurningOfLink
 from graphkin.numbers.arithmetic import np
 
 Array = Any

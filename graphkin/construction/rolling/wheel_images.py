@@ -16,7 +16,7 @@ from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
 from graphkin.construction.guides.guides import known_guide
 from graphkin.construction.normal_component import known_and_free
-from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of, turning_of_link
 from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import radius_of, seen_from
@@ -29,7 +29,6 @@ from graphkin.construction.velocity.image_of_link import (
     translated_image,
 )
 from graphkin.construction.velocity.relative_motion import parallel_through
-from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.numbers.arithmetic import Real
 from graphkin.scene.link_points import under
