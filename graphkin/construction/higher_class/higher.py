@@ -13,6 +13,7 @@ from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, coordinate, difference, product
+from graphkin.construction.group_images import led_by
 from graphkin.construction.guides.guides import (
     axis,
     axis_with_guide,
@@ -20,7 +21,6 @@ from graphkin.construction.guides.guides import (
     standing_guide,
     turned_back,
 )
-from graphkin.construction.guides.led_block import led_by
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.trial import Unknown
