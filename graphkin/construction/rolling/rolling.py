@@ -59,7 +59,7 @@ from graphkin.scene.quantity import exact
 from graphkin.structure.groups import Geared, Train, other_of
 from graphkin.structure.joints import partner
 from graphkin.structure.pairs import Contact, Pin, Sliding
-from graphkin.structure.turn_counting import stated_rolling
+from graphkin.structure.wheel_groups import stated_rolling
 from graphkin.text.errors import Problem, StructureError, message
 
 
