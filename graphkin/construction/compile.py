@@ -53,7 +53,7 @@ from graphkin.structure.groups import (
     Train,
     Unresolved,
 )
-from graphkin.structure.joints import parallel_sets
+from graphkin.structure.pairs import parallel_sets
 from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, Any], None]

@@ -43,8 +43,7 @@ from graphkin.construction.velocity.turned_vectors import accelerated
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie, other_of
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
+from graphkin.structure.pairs import Joint, Leading, Pin, Sliding, partner
 
 if TYPE_CHECKING:
     from graphkin.construction.coriolis import CoriolisComponent

@@ -19,8 +19,17 @@ from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver, Rolling, Scene, link_words, of_one_size
 from graphkin.scene.phrases import place_of
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.structure.joints import Joints, partner
-from graphkin.structure.pairs import Contact, ContactName, Joint, Leading, Pin, Sliding, contacts
+from graphkin.structure.pairs import (
+    Contact,
+    ContactName,
+    Joint,
+    Joints,
+    Leading,
+    Pin,
+    Sliding,
+    contacts,
+    partner,
+)
 from graphkin.structure.turning import LEVEL
 from graphkin.text.errors import Message, Problem, StructureError, message
 from graphkin.text.tables import listed

@@ -31,8 +31,7 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, KeptParallel, Stretched, Tie, TriedLink
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding, partner
 
 Each = Callable[[Pen, Group, tuple[Base, ...]], None]
 """The compiler's function that draws one group, for one of the three plans."""

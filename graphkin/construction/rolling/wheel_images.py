@@ -34,8 +34,7 @@ from graphkin.numbers.arithmetic import Real
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Geared, Train
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Contact, Pin, Sliding, partner
 
 # --- rates of wheels on fixed pins, by their radii ------------------------------------------------
 
