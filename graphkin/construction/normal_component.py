@@ -81,8 +81,8 @@ from graphkin.scene.model import FRAME, Scene
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.text import AND, COMMA, saying
 from graphkin.text.errors import Problem, StructureError, message
-from graphkin.text.markup import AND, COMMA, saying
 
 # --- its value, and the steps by hand ------------------------------------------------------------
 

@@ -21,8 +21,8 @@ from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
 from graphkin.reading.settled_points import PICTURE, READING, kept
+from graphkin.text import as_text
 from graphkin.text.errors import Refusals
-from graphkin.text.markup import as_text
 from graphkin.text.tables import safe
 from graphkin.writers.commit import held, put_in_place, settle
 

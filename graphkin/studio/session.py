@@ -62,9 +62,8 @@ from graphkin.studio.panels import (
     trial_of,
 )
 from graphkin.studio.sketch import sketch
-from graphkin.text import LANGUAGES, Words, words
+from graphkin.text import LANGUAGES, Words, as_text, words
 from graphkin.text.errors import GraphkinError, SceneError
-from graphkin.text.markup import as_text
 from graphkin.writers.files import file_stem, write_all
 
 PAGE = "html"

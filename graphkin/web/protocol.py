@@ -39,7 +39,7 @@ from graphkin.documents.step_pages import accompanied, ground_of, naming_stages,
 from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.numbers.plane import Line
-from graphkin.text.markup import AND, EQUALS, names_in
+from graphkin.text import AND, EQUALS, names_in
 from graphkin.web.screen_sheets import ScreenSheet
 
 AGAIN = {
