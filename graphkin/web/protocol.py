@@ -9,7 +9,7 @@ from itertools import groupby
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.centres.centre import VelocityNormal
+from graphkin.construction.centres.instant_centre import VelocityNormal
 from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.component import component_of, is_hidden
 from graphkin.construction.core.crossings import Crossing, crossings

@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.centres.centre import VelocityNormal
+from graphkin.construction.centres.instant_centre import VelocityNormal
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
-from graphkin.construction.centres.centre import (
+from graphkin.construction.centres.instant_centre import (
     Centre,
     LineToCentre,
     Places,
