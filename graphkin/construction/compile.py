@@ -1,6 +1,8 @@
 """From groups to the program: all positions, then all velocities, then accelerations and poles.
 
-The vectors of the requested points: arrows from the pole, and on the mechanism.
+Last come the vectors of the requested points: arrows from the pole, and on the mechanism. Rods that
+lie flat are in line with their cranks, where a dyad of the two has no sure crossing. Where parallel
+bars keep a rod or a wheel parallel, its direction places it there, too.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """One plan, group by group: images where lines cross, and images by known rates.
 
 Lines are perpendicular to bars or parallel to guides. In the acceleration plan they start at the
-ends of the known components. The other points of a link follow by similarity.
-
-Velocities of points that pairs join to known links, and motions along guides.
+ends of the known components: on a turning guide these are the acceleration of the point underneath
+and the Coriolis component. The other points of a link follow by similarity.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The plans of velocities and of accelerations: their images, and images by known rates."""
+"""The plans of velocities and accelerations: images by known rates, and rates read off them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""The kinematic pairs of a scene, each between two links."""
+"""The kinematic pairs of a scene, each between two links, and the pairs of each link.
+
+Two links joined by equal bars, at congruent figures of pins, translate along circles relative to
+one another. Two of the bars could also cross; the third one does not fit then. Each bar beyond the
+first removes a freedom that the common direction has removed already.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,11 @@
-"""Groups of wheels: turned by others, driven on a track, between two known wheels, in a loop.
+"""Groups of wheels, and the turns of links since the start of their wheels.
 
-In a loop no wheel follows from known links alone. Once one link is tried, each further wheel is
-turned by its contact with the one before. A contact with a known wheel then gives the position.
+Wheels are turned by others, driven on a track, between two known wheels, or in a loop. In a loop no
+wheel follows from known links alone. Once one link is tried, each further wheel is turned by its
+contact with the one before. A contact with a known wheel then gives the position.
+
+Pins show the direction of a link but not its number of turns, on which its wheels depend. The angle
+is taken within half a turn of a reference: its start, plus the whole turns that the scene adds.
 """
 
 from __future__ import annotations

@@ -1,4 +1,7 @@
-"""The construction of all sheets as one sequence of sentences, and what each mark depends on."""
+"""The construction of all sheets as one sequence of sentences, each with its reason.
+
+It also holds what each mark depends on.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The position of a cam's follower by the cam's law, and the centre of curvature under it."""
+"""A cam's follower: its position by the law, the centre of curvature, and the relations of both."""
 
 from __future__ import annotations
 

@@ -1,8 +1,10 @@
-"""The instantaneous centre of a link against the frame: where the normals to velocities cross.
+"""Instantaneous centres of links, and acceleration poles; all may lie at infinity.
 
-For two parallel velocities it is where the line through their tips meets the bar of their points.
-
-The acceleration pole of a link, from a triangle similar to the one in the plan (Mehmke).
+A centre lies where the normals to two velocities cross. For two parallel velocities it is where the
+line through their tips meets the bar of their points. The centre of two links is a pin, a guide's
+at infinity, or where two lines of centres meet: the centres of three links lie on one line
+(Kennedy, Aronhold). Every centre is a Ratio, start + shift/size. The acceleration pole follows from
+a triangle similar to the one in the plan (Mehmke).
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Positions of guides and links in the plane: axes of links, lines of guides, paths of points.
+"""Guides in the plane: their lines, where lines cross, and links set at a coordinate on them.
 
-Links set at a coordinate of their guide or track, given by a driver or by a group's closure.
+A driver or the closure of a group gives the coordinate, on a guide or on a track.
 """
 
 from __future__ import annotations
