@@ -1,4 +1,16 @@
-"""A pencil: the errors of its marks and lines, in millimetres of paper and degrees."""
+"""A pencil: the errors of its marks and lines, in millimetres of paper and degrees.
+
+The expected error of drawings is predicted from the single errors of each mark. The rows of one
+batch are the sources: one error of one mark at a time, at plus and minus √3 standard deviations.
+With the exact drawing, these are the three points of Gauss and Hermite. They give mean and variance
+of every answer, as long as errors of different marks do not interact. The 95th percentile follows
+from these by a scaled chi-square (Satterthwaite 1946) and its quantile by the cube root (Wilson and
+Hilferty 1931).
+
+If a pencil is so coarse that answers are not linear in single errors, marks do interact; and some
+drawings close with one error but not with many. Therefore some joint drawings are always made. If
+they disagree, the error is read from more of them, which are the same at every run.
+"""
 
 from __future__ import annotations
 
@@ -24,7 +36,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.run import Trace
 from graphkin.construction.higher_class.closure_solver import ClosureSolver, closer_of
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.construction.plan import TurningOfLink
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import Point, Real, np, turn_by

@@ -308,7 +308,7 @@ def quiz(
       graphkin quiz pump -o out --format moodle,canvas
     """
     from graphkin.classroom.printing.edition import read_edition
-    from graphkin.classroom.printing.print_work import PrintOrder
+    from graphkin.classroom.printing.print_run import PrintOrder
     from graphkin.classroom.printing.workers import cores
     from graphkin.classroom.quiz.moodle_quiz import bank, questions, variants_of
     from graphkin.classroom.quiz.qti_packages import canvas_package, qti3_package

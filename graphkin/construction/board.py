@@ -20,7 +20,7 @@ from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import KINDS
-from graphkin.construction.guides.guide_line import GuideLine
+from graphkin.construction.guides.guides import GuideLine
 from graphkin.construction.registry import BOARD
 from graphkin.drawing.symbol_markup import bar
 from graphkin.numbers.plane import Line, Ratio

@@ -1,6 +1,8 @@
 """From groups to the program: all positions, then all velocities, then accelerations and poles.
 
-The vectors of the requested points: arrows from the pole, and on the mechanism.
+Last come the vectors of the requested points: arrows from the pole, and on the mechanism. Rods that
+lie flat are in line with their cranks, where a dyad of the two has no sure crossing. Where parallel
+bars keep a rod or a wheel parallel, its direction places it there, too.
 """
 
 from __future__ import annotations
@@ -29,8 +31,8 @@ from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
 from graphkin.construction.guides.guides import axis, standing_guide
 from graphkin.construction.links import plate_points, position
+from graphkin.construction.normal_component import refuse_unused_method
 from graphkin.construction.plan import Plan, omega_of
-from graphkin.construction.tangential_direction import refuse_unused_method
 from graphkin.construction.velocity.image_of_link import image_under
 from graphkin.numbers.arithmetic import FLOAT, Point, Real
 from graphkin.numbers.plane import Vector
@@ -53,7 +55,7 @@ from graphkin.structure.groups import (
     Train,
     Unresolved,
 )
-from graphkin.structure.joints import parallel_sets
+from graphkin.structure.pairs import parallel_sets
 from graphkin.text.errors import Problem, StructureError
 
 Work = Callable[[Pen, Any], None]

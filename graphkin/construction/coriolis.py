@@ -65,7 +65,7 @@ from graphkin.numbers.plane import Line, cross
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Scene
 from graphkin.structure.pairs import turns
-from graphkin.text.markup import AND, COMMA, NOTHING, saying
+from graphkin.text import AND, COMMA, NOTHING, saying
 
 CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle similar to the guide's."""

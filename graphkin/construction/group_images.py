@@ -1,15 +1,14 @@
 """One plan, group by group: images where lines cross, and images by known rates.
 
 Lines are perpendicular to bars or parallel to guides. In the acceleration plan they start at the
-ends of the known components. The other points of a link follow by similarity.
-
-Velocities of points that pairs join to known links, and motions along guides.
+ends of the known components: on a turning guide these are the acceleration of the point underneath
+and the Coriolis component. The other points of a link follow by similarity.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 from msgspec import Struct
 
@@ -26,12 +25,11 @@ from graphkin.construction.core.pen import (
 from graphkin.construction.core.program import Effect, Part, Plane, Step
 from graphkin.construction.core.quantities import SLIDING
 from graphkin.construction.core.vocabulary import difference, join, part_along
-from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.guides.led_block import led_by
-from graphkin.construction.links.link_shapes import ratio_of
+from graphkin.construction.guides.guides import axis, known_guide, local_line, path_of
+from graphkin.construction.links.link_shapes import local_place, ratio_of
 from graphkin.construction.links.plate_points import crosses_well
+from graphkin.construction.normal_component import BarAcceleration
 from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
-from graphkin.construction.tangential_direction import BarAcceleration
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     image_of_link,
@@ -42,12 +40,76 @@ from graphkin.construction.velocity.image_of_link import (
 from graphkin.construction.velocity.relative_motion import parallel_through, perpendicular_through
 from graphkin.construction.velocity.turned_vectors import accelerated
 from graphkin.scene.link_points import ends_of, is_under, under
+from graphkin.scene.model import Driver
 from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie, other_of
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Joint, Leading, Pin, Sliding
+from graphkin.structure.pairs import Joint, Leading, Pin, Sliding, partner
 
 if TYPE_CHECKING:
     from graphkin.construction.coriolis import CoriolisComponent
+    from graphkin.construction.rolling.wheel_images import LedWheel
+    from graphkin.structure.pairs import Contact
+
+
+class LedBlock(Struct, frozen=True):
+    """A block on the guide of a known link, or the link of a guide on a known block."""
+
+    pair: Sliding
+
+    def line(self, pen: Pen) -> int:
+        return known_guide(pen, self.pair)
+
+    def path(self, pen: Pen, link: str, point: str) -> int:
+        """The line on which a point of the link moves."""
+        return path_of(pen, self.pair, link, point)
+
+    def direction(self, pen: Pen) -> int:
+        """A line along which the link moves relative to the known one."""
+        return known_guide(pen, self.pair)
+
+    def driven(self, pen: Pen, driver: Driver, which: str) -> int:
+        """The driver's position, speed or acceleration along the guide."""
+        return int(getattr(pen.drive(driver), which))
+
+    def set_at(self, pen: Pen, link: str, where: int) -> None:
+        """Place the link, its guided point at a coordinate of the guide; set its axis."""
+        from graphkin.construction.guides.guides import set_carrier, set_point
+
+        pair, point = self.pair, pen.bases[link].start
+        sides = link, partner(pair, link)
+        pen.leads[link] = sides[1]
+        line = path_of(pen, pair, link, point)
+        with pen.on(Part.POSITION, Plane.MECHANISM):
+            if pair.block == link:
+                found = set_point(pen, point, sides, line, where)
+            else:
+                zero = known_guide(pen, pair, link)
+                through = local_line(pen, pair.slide, link)[0]
+                ends = local_place(pen, link, point), through, axis(pen, link)
+                found = set_carrier(pen, point, sides, zero, where, *ends)
+        pen.want("position", point, found)
+
+    def finish(self, pen: Pen) -> None:
+        """Do nothing: the link needs no more steps once its guided point is placed."""
+
+    def touch(self, pen: Pen, plan: Plan) -> None:
+        """Do nothing: a block has no rolling contact."""
+
+    def rim(self, pen: Pen) -> int | None:
+        """None: no radius relates its rotation to its coordinate."""
+        return None
+
+
+@overload
+def led_by(pair: Contact) -> LedWheel: ...
+@overload
+def led_by(pair: Leading) -> LedBlock | LedWheel: ...
+def led_by(pair: Leading) -> LedBlock | LedWheel:
+    """The construction of a pair with a known link, in each drawing."""
+    if isinstance(pair, Sliding):
+        return LedBlock(pair)
+    from graphkin.construction.rolling.wheel_images import LedWheel
+
+    return LedWheel(pair)
 
 
 class GuideAcceleration(Struct, frozen=True):
@@ -256,7 +318,7 @@ class GroupImages(Struct, frozen=True):
         found: int = getattr(pen.drive(driver), self.plan.given)
         against = other_of(driver, link)
         if pen.turns(against):
-            from graphkin.construction.velocity.turning_of_link import summed_rate
+            from graphkin.construction.plan import summed_rate
 
             other = omega_of(pen, against, rate)
             with pen.on(Part.RESULT, Plane.NUMBERS):

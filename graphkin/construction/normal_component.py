@@ -17,9 +17,11 @@ Source: F. Klein's construction, as in Theory of Machines by R. S. Khurmi and J.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, ClassVar
+
+from msgspec import Struct
 
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
@@ -29,20 +31,30 @@ from graphkin.construction.core.component import (
     OwnSizes,
     Size,
     TriangleComponent,
+    component_ending_at,
 )
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Sentence, Slip, Wording, in_one, together
-from graphkin.construction.core.naming import laid_off_words, plan_amount, rate_symbol
-from graphkin.construction.core.palette import NUMBERS, PaletteAction, Picks, normal_towards
+from graphkin.construction.core.naming import laid_off_words, letter_at, plan_amount, rate_symbol
+from graphkin.construction.core.palette import (
+    NUMBERS,
+    PERPENDICULAR,
+    ErrorPicks,
+    KnownError,
+    PaletteAction,
+    Picks,
+    normal_towards,
+)
 from graphkin.construction.core.pen import (
     Pen,
     about,
+    acceleration_arrow,
     against,
     component_arrow,
     letter,
     relative_arrow,
 )
-from graphkin.construction.core.program import Effect, OwnStep, Part, Plane
+from graphkin.construction.core.program import Effect, OwnStep, Part, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import (
     Relation,
@@ -56,15 +68,22 @@ from graphkin.construction.core.relation import (
 )
 from graphkin.construction.core.vocabulary import action, lay_off, meet, perpendicular_at, set_way
 from graphkin.construction.guides.guides import known_guide
+from graphkin.construction.plan import ACCELERATION
+from graphkin.construction.velocity.relative_motion import (
+    PerpendicularThrough,
+    forgotten,
+    square_to,
+)
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real, smaller
 from graphkin.numbers.plane import Circle, Line, circles_sine, dot, line_meets_line
-from graphkin.scene.link_points import lettered
+from graphkin.scene.link_points import is_under, lettered
 from graphkin.scene.model import FRAME, Scene
+from graphkin.scene.requests import KLEIN
 from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.text import AND, COMMA, saying
 from graphkin.text.errors import Problem, StructureError, message
-from graphkin.text.markup import AND, COMMA, saying
 
 # --- its value, and the steps by hand ------------------------------------------------------------
 
@@ -638,3 +657,91 @@ def refuse_unused(pen: Pen) -> None:
             message("leave method out for right triangles"),
         )
         raise StructureError([problem])
+
+
+class TangentialDirection(PerpendicularThrough, frozen=True, kw_only=True):
+    """The ``line`` along which the tangential component of a pin about a pivot lies."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"line": "why.tangential"}
+    along_bar: ClassVar[str] = "turn.wrong.tangential_along_bar"
+
+    def clause(self, drawing: Drawing, role: str) -> str:
+        """The clause: through the normal component's end, or its start if it is too short."""
+        fields = {"vector": drawing.symbol(f"a_{self.index}^τ"), **self.symbols()}
+        laid = component_ending_at(drawing.trace.program, self.start)
+        if laid is not None and laid.is_short(drawing):
+            start = drawing.lettered(laid.start)
+            return drawing.words("step.square-to", s=start, **fields)
+        foot = drawing.symbol(letter_at(drawing, self.start))
+        return drawing.words(f"step.square-to-{'foot' if foot else 'end'}", s=foot, **fields)
+
+    def errors(self, picks: ErrorPicks, steps: Sequence[Step]) -> Iterator[KnownError]:
+        """A line without the normal component, along the bar, or from the pole."""
+        if before := forgotten(picks, steps, self.start):
+            _, *ends = steps[self.line].args
+            key, start = before
+            yield KnownError(key, self.line, PERPENDICULAR, (start, picks.bar(*ends)))
+        yield from super().errors(picks, steps)
+
+
+def tangential_direction(pen: Pen, pivot: str, pin: str, corner: int) -> int:
+    """The perpendicular to a bar through the end of its normal component."""
+    ends = pen.the("position", pivot), pen.the("position", pin)
+    with pen.calls_for("tangential components"):
+        line = pen.draw(square_to, corner, *ends)
+    names = {
+        "p": letter(pivot),
+        "q": letter(pin),
+        "index": about(pen, pin, pivot),
+        "whole": lettered(pin),
+        "base": lettered(pivot),
+    }
+    pen.make(TangentialDirection(**names, start=corner, line=line))
+    return line
+
+
+class BarAcceleration(Struct, frozen=True):
+    """The line that a bar to a known ``pivot`` gives for the acceleration of a ``point``."""
+
+    pivot: str
+    point: str
+
+    def component(self, pen: Pen, sides: list[tuple[Joint, str]] | None = None) -> int:
+        """The known normal component, drawn by the method that the scene asks for in a dyad."""
+        if sides is None or pen.scene.sheet.method != KLEIN:
+            return normal_component(pen, self.pivot, self.point)
+
+        return component_in_dyad(pen, sides, self.pivot, self.point)
+
+    def end(self, pen: Pen, vector: int | None) -> int:
+        """The end of the known part in the plan."""
+        assert vector is not None
+        return lay_off_normal(pen, self.pivot, self.point, vector)
+
+    def line(self, pen: Pen, vector: int | None) -> tuple[int, int]:
+        """The known end, and the line of the rest."""
+        end = self.end(pen, vector)
+        return end, tangential_direction(pen, self.pivot, self.point, end)
+
+    def rest(self, pen: Pen, end: int, found: int) -> None:
+        """Draw the arrow of the rest."""
+        component_arrow(pen, end, found, "τ", self.point, self.pivot)
+
+    def finish(self, pen: Pen) -> None:
+        """Draw the arrow from the pole."""
+        if not is_under(self.point):
+            acceleration_arrow(pen, self.point)
+
+
+def known_and_free(pen: Pen, pivot: str, pin: str) -> tuple[int, int]:
+    """The end of the known part of a pin's acceleration about a pivot, and the line of the rest."""
+    vector = normal_component(pen, pivot, pin)
+    with ACCELERATION.drawn(pen):
+        end = lay_off_normal(pen, pivot, pin, vector)
+        return end, tangential_direction(pen, pivot, pin, end)
+
+
+def refuse_unused_method(pen: Pen) -> None:
+    """Raise StructureError where the scene's method for components applies to none of them."""
+    if pen.scene.sheet.method == KLEIN:
+        refuse_unused(pen)

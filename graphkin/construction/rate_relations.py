@@ -14,8 +14,8 @@ from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import rate_symbol, sense, turning_with, vector_of
 from graphkin.construction.core.relation import FINE, Relation, answer, figure
 from graphkin.construction.links.rolled_turn import willis
+from graphkin.construction.plan import SummedRate, TurningOfLink
 from graphkin.construction.result_tables import slide_sense, slides_asked
-from graphkin.construction.velocity.turning_of_link import SummedRate, TurningOfLink
 from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.scene.model import FRAME, Belt, Driver
 

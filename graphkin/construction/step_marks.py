@@ -27,7 +27,7 @@ from graphkin.drawing.marks import Mark, style_class
 from graphkin.drawing.scale import Extent, extent_of
 from graphkin.drawing.style import VECTORS
 from graphkin.numbers.plane import Vector
-from graphkin.text.markup import AND
+from graphkin.text import AND
 
 
 def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:

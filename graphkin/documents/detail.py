@@ -9,8 +9,7 @@ from typing import NamedTuple, TypeGuard
 
 from msgspec.structs import replace
 
-from graphkin.construction.centres.centre import Centre
-from graphkin.construction.centres.instant_centre import RelativeCentre
+from graphkin.construction.centres.instant_centre import Centre, RelativeCentre
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.layout import centre

@@ -47,7 +47,7 @@ from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import bar, escape, symbol, without_index
 from graphkin.scene.forces import ByDriver, Directed, Load, Size
 from graphkin.scene.link_points import ends_of, lettered
-from graphkin.text.markup import AND, names_in
+from graphkin.text import AND, names_in
 
 
 class IndexNote(NamedTuple):

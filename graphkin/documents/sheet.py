@@ -69,9 +69,8 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.house import THICK
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
-from graphkin.text import Words
+from graphkin.text import Words, names_in
 from graphkin.text.errors import PageError, Problem, message
-from graphkin.text.markup import names_in
 
 BLANK = ". . . . . . . . ."
 """Room to write in for values that a task does not reveal."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import lru_cache
 
-from graphkin.text.markup import Markup
+from graphkin.text import Markup
 from graphkin.text.school_signs import USUAL, SchoolSigns
 
 NAME = (

@@ -27,7 +27,15 @@ from graphkin.loops.closing_groups import (
     stages,
 )
 from graphkin.loops.equations import Equations, equations, part_of, undriven
-from graphkin.loops.loop_motion import Motion, Pose, pose_of, setting_of, spot, unknowns_of
+from graphkin.loops.loop_motion import (
+    Motion,
+    Pose,
+    PositionBounds,
+    pose_of,
+    setting_of,
+    spot,
+    unknowns_of,
+)
 from graphkin.loops.newton import (
     AT_REST,
     CLOSED,
@@ -44,7 +52,6 @@ from graphkin.loops.newton import (
     start_values,
 )
 from graphkin.loops.rigid_bodies import Complexes, Guide, Reals
-from graphkin.loops.rounding import PositionBounds
 from graphkin.numbers.arithmetic import Point
 from graphkin.scene.model import FRAME, Closure, Scene, Side, Way
 from graphkin.text.errors import (

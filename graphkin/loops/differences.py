@@ -29,10 +29,9 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.loops.equations import Equations, Lift, equations
-from graphkin.loops.loop_motion import Motion
+from graphkin.loops.loop_motion import Motion, RateBounds, Rounding, led, loads, straight, touching
 from graphkin.loops.newton import LoopSolution, solve_each
 from graphkin.loops.rigid_bodies import Complexes, Reals
-from graphkin.loops.rounding import RateBounds, Rounding, led, loads, straight, touching
 from graphkin.numbers.plane import Ratio, dot
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import FRAME, Scene

@@ -15,10 +15,9 @@ from msgspec import Struct
 
 from graphkin.loops.closing_groups import Mask, moved_by, stages
 from graphkin.loops.equations import UNIT, Equations, Linear
-from graphkin.loops.loop_motion import Motion
+from graphkin.loops.loop_motion import Motion, Rounding, rounding, straight
 from graphkin.loops.no_slip import within_half_a_turn
 from graphkin.loops.rigid_bodies import Complexes, Reals
-from graphkin.loops.rounding import Rounding, rounding, straight
 from graphkin.scene.model import FRAME
 from graphkin.text.errors import NO_WORDS, StructureError, WitnessError, message
 

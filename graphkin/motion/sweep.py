@@ -36,7 +36,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.scene.expression import TIME, Name
 from graphkin.scene.model import FRAME, Branch, Driver, Scene
 from graphkin.scene.quantity import Quantity
-from graphkin.structure.turn_counting import counted_near
+from graphkin.structure.wheel_groups import counted_near
 from graphkin.text.errors import SceneError, message, verbatim
 
 Reals = np.ndarray[Any, np.dtype[Any]]

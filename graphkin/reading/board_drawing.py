@@ -27,7 +27,7 @@ from graphkin.classroom.grading.feedback import (
 )
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.printing.edition import Edition
-from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.printing.print_run import PrintOrder
 from graphkin.classroom.roster.students import Taker
 from graphkin.construction.board import PLANES, Board, board_given, replayed
 from graphkin.construction.core.vocabulary import similar_point

@@ -37,9 +37,8 @@ from graphkin.reading.settled_points import (
 )
 from graphkin.studio.server import JSON, answer, answering, new_application
 from graphkin.studio.session import PageRequestError
-from graphkin.text import Words
+from graphkin.text import Words, as_text
 from graphkin.text.errors import PageError, Problem, message
-from graphkin.text.markup import as_text
 from graphkin.writers.templates import from_template
 
 

@@ -15,7 +15,7 @@ from graphkin.classroom.grading.answer_numbers import OPEN
 from graphkin.classroom.grading.probes import Probe, probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.edition import Edition
-from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.printing.print_run import PrintOrder
 from graphkin.classroom.roster.students import Taker
 from graphkin.reading.lettered_points import LetteredSheet
 from graphkin.reading.read_sheet import SheetRecord, sheets_of

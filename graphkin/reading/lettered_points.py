@@ -19,7 +19,7 @@ from graphkin.construction.core.layout import Layout, lay_out
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.core.vocabulary import join, similar_point
 from graphkin.construction.forces.polygon import DrawnSide, InPolygon
-from graphkin.construction.guides.guide_line import GuideLine
+from graphkin.construction.guides.guides import GuideLine
 from graphkin.construction.higher_class.two_trials import TwoTrials
 from graphkin.drawing.field import Field
 from graphkin.drawing.marks import Page

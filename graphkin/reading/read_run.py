@@ -15,15 +15,14 @@ import msgspec
 from msgspec import Struct, field
 
 from graphkin.classroom.printing.edition import Edition
-from graphkin.classroom.printing.print_run import key_of
-from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.printing.print_run import PrintOrder, key_of
 from graphkin.classroom.printing.workers import ENDED, chunks, engine, results
 from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
 from graphkin.reading.settled_points import PICTURE, READING, kept
+from graphkin.text import as_text
 from graphkin.text.errors import Refusals
-from graphkin.text.markup import as_text
 from graphkin.text.tables import safe
 from graphkin.writers.commit import held, put_in_place, settle
 

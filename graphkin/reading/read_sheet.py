@@ -13,7 +13,7 @@ from graphkin.accuracy.pencil import Pencil
 from graphkin.classroom.grading.probes import probes
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.printing.personal import without_crosses
-from graphkin.classroom.printing.print_work import PrintOrder, Sheets
+from graphkin.classroom.printing.print_run import PrintOrder, Sheets
 from graphkin.classroom.roster.students import Taker
 from graphkin.drawing.field import A3, SheetPaper, paper_of
 from graphkin.numbers.arithmetic import np

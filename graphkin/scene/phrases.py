@@ -1,4 +1,4 @@
-"""The vocabulary of a scene: names, and phrases such as "left of A-B" or "closure 1"."""
+"""The names of a scene: phrases such as "left of A-B" or "closure 1", and names that must exist."""
 
 from __future__ import annotations
 

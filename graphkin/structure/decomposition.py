@@ -32,8 +32,17 @@ from graphkin.structure.groups import (
     TriedLink,
     Unresolved,
 )
-from graphkin.structure.joints import Joints, is_spare, partner, way_between
-from graphkin.structure.pairs import Joint, Pair, Pin, PinLine, Sliding
+from graphkin.structure.pairs import (
+    Joint,
+    Joints,
+    Pair,
+    Pin,
+    PinLine,
+    Sliding,
+    is_spare,
+    partner,
+    way_between,
+)
 from graphkin.structure.turning import LEVEL, body, guide_line, guide_on, metres
 from graphkin.structure.wheel_groups import (
     by_centres,

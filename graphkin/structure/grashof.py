@@ -14,8 +14,7 @@ from msgspec import Struct
 
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.joints import Joints
-from graphkin.structure.pairs import Joint, Pin, Sliding
+from graphkin.structure.pairs import Joint, Joints, Pin, Sliding
 from graphkin.structure.turning import body, guide_line, metres
 
 EVEN = 1e-9

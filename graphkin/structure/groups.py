@@ -10,8 +10,7 @@ from msgspec import Struct
 from graphkin.scene.findings import natural
 from graphkin.scene.link_points import under
 from graphkin.scene.model import Driver, joined_words, link_words
-from graphkin.structure.joints import ParallelSet
-from graphkin.structure.pairs import Contact, Joint, Pin, PinLine, Sliding
+from graphkin.structure.pairs import Contact, Joint, ParallelSet, Pin, PinLine, Sliding
 from graphkin.structure.wheel_groups import (
     CoupledTrain,
     Crank,

@@ -1,4 +1,9 @@
-"""Links that turn together because they slide on one another, and links that never turn."""
+"""The points, guides and tracks of a link in its own axes, and which links turn together.
+
+These numbers decide which wheels touch and which link keeps a distance. Lengths are floats in
+metres. The construction and the residual check compute their own. Links turn together because they
+slide on one another; some links never turn.
+"""
 
 from __future__ import annotations
 

@@ -27,9 +27,8 @@ from graphkin.scene.read_scene import known_keys, read_text
 from graphkin.scene.toml_spans import Path, Span, parts, spans
 from graphkin.studio.mends import Edit, mends_of, units
 from graphkin.studio.panels import Memory, margins, panels, results, style, verdict_words
-from graphkin.text import Words, words
+from graphkin.text import Words, as_text, words
 from graphkin.text.errors import GraphkinError, InLine, Problem, Setting, Sought, message
-from graphkin.text.markup import as_text
 from graphkin.text.paths import within
 from graphkin.text.problems import spoken
 

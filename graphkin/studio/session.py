@@ -49,22 +49,22 @@ from graphkin.studio.folder import (
     with_ending,
 )
 from graphkin.studio.guard import new_token
-from graphkin.studio.lab_panel import (
+from graphkin.studio.look import Sight, look, problem_records, spoken_in
+from graphkin.studio.mends import Edit, units
+from graphkin.studio.panels import (
     LabProblems,
     LabTexts,
+    Memory,
+    StaleError,
     beside,
     lab_advice,
     lab_report,
     proposal_of,
     trial_of,
 )
-from graphkin.studio.look import Sight, look, problem_records, spoken_in
-from graphkin.studio.mends import Edit, units
-from graphkin.studio.panels import Memory, StaleError
 from graphkin.studio.sketch import sketch
-from graphkin.text import LANGUAGES, Words, words
+from graphkin.text import LANGUAGES, Words, as_text, words
 from graphkin.text.errors import GraphkinError, SceneError
-from graphkin.text.markup import as_text
 from graphkin.writers.files import file_stem, write_all
 
 PAGE = "html"

@@ -12,7 +12,6 @@ from functools import cached_property
 from types import MappingProxyType
 
 from msgspec import Struct
-from msgspec.structs import fields
 
 VELOCITY_POLE, ACCELERATION_POLE = "o", "o′"
 """The usual signs of the poles, which are their names in every program."""
@@ -110,7 +109,7 @@ def sign_markup(sign: str) -> str:
 
 
 USUAL = SchoolSigns()
-NAMES = tuple(each.name for each in fields(SchoolSigns))
+NAMES = SchoolSigns.__struct_fields__
 """The keys of signs, in the order in which they are listed."""
 TOKEN = r"\*ε\*|\*o\*′?|\*k\*_(?:[LvanF]\b|\{\{)|\*a\*\^\{\{.\}\}|\ba\^c\b"
 """A usual sign in a sentence."""

@@ -9,8 +9,8 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import construction
 from graphkin.construction.core.program import plan_vector
 from graphkin.construction.forces.force_drawing import ForceDrawing, balance_rows, sorted_sides
+from graphkin.construction.plan import TurningOfLink
 from graphkin.construction.rate_relations import of_turning
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.documents.step_pages import BODY
 from graphkin.drawing.marks import CircleMark, Text, style_class
 from graphkin.drawing.style import DRAWN

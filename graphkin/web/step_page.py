@@ -47,8 +47,7 @@ from graphkin.web.offline_page import (
     part,
 )
 from graphkin.web.page_driver import PageDriver, Reach, window
-from graphkin.web.protocol import PageProtocol, ProtocolSentence, Timed, telling
-from graphkin.web.reasons import NO_STEP
+from graphkin.web.protocol import NO_STEP, PageProtocol, ProtocolSentence, Timed, telling
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheet, screen_sheets
 from graphkin.web.your_turn import NOBODY, TurnOwner, palette, your_turn
 from graphkin.web.your_turn import record as turn_record

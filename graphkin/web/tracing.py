@@ -1,4 +1,7 @@
-"""The construction of a page's sheets, traced once with the driver's place as its input."""
+"""The construction of a page's sheets, traced once with the driver's place as its input.
+
+Groups of higher class close on the page by Newton's steps from the closings traced here.
+"""
 
 from __future__ import annotations
 

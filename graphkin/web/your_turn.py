@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.centres.centre import VelocityNormal
+from graphkin.construction.centres.instant_centre import VelocityNormal
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
@@ -27,10 +27,10 @@ from graphkin.construction.drivers.driven_slide import DrivenSlide
 from graphkin.construction.forces.force_drawing import ForceLayout
 from graphkin.construction.forces.polygon import PolygonSide
 from graphkin.construction.higher_class.divided_point import DividedPoint
+from graphkin.construction.plan import TurningOfLink
 from graphkin.construction.registry import PALETTE, SAID_FIRST
 from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
 from graphkin.construction.velocity.turned_vectors import LaidOffByRate, TurnedVelocity
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.field import Field
 from graphkin.drawing.symbol_markup import symbol, tag_words
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross

@@ -15,8 +15,14 @@ from time import perf_counter
 
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.printing.edition import read_edition
-from graphkin.classroom.printing.print_run import Means, PrintRequest, print_class
-from graphkin.classroom.printing.print_work import PrintOrder, StudentSheets, make
+from graphkin.classroom.printing.print_run import (
+    Means,
+    PrintOrder,
+    PrintRequest,
+    StudentSheets,
+    make,
+    print_class,
+)
 from graphkin.classroom.printing.workers import CHUNK, processes
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned

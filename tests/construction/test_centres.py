@@ -11,8 +11,11 @@ import pytest
 from hypothesis import given, settings
 from msgspec.structs import replace
 
-from graphkin.construction.centres.centre import velocity_normal
-from graphkin.construction.centres.instant_centre import LineOfCentres, RelativeCentre
+from graphkin.construction.centres.instant_centre import (
+    LineOfCentres,
+    RelativeCentre,
+    velocity_normal,
+)
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.solution import Solution
 from graphkin.documents.centre_tables import breadth_of, place_of

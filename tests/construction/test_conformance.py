@@ -36,8 +36,7 @@ from graphkin.documents.sheet_documents import drawings_of, proved, with_forces
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
 from graphkin.text import words
-from graphkin.web.protocol import parted_sentences, telling
-from graphkin.web.reasons import of_sentence, reasons
+from graphkin.web.protocol import of_sentence, parted_sentences, reasons, telling
 from graphkin.web.screen_sheets import screen_sheets
 from graphkin.web.step_page import force_sheet
 from graphkin.web.your_turn import record as turn_record

@@ -51,7 +51,7 @@ ADDED = {
 """What is written into each file, and the text before which it is written."""
 LEGENDS = {"en": "acceleration pole:", "ro": "polul accelerațiilor:", "it": "polo delle"}
 MADE_UP = """
-from graphkin.construction.centres.centre import two_points
+from graphkin.construction.centres.instant_centre import two_points
 from graphkin.construction.centres.instant_centre import InstantCentre
 
 

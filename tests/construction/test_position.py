@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 
 from graphkin.construction.core.link_poses import LinkPoses
-from graphkin.construction.guides.guide_line import stretch
+from graphkin.construction.guides.guides import stretch
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.plane import cross
 from tests.chosen import CHOSEN

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
@@ -16,6 +17,25 @@ FOOT = 201.0
 NUMBER = r"−?\d+(?:\.\d+)?"
 MARKED, ENLARGED = {"pin", "point", "pole", "centre"}, {"inset", "detail", "scheme"}
 """The kinds of circles that mark a point, and those of them that stand in a lens."""
+
+
+ENGLISH = Path(__file__).parents[2] / "graphkin" / "text" / "en.toml"
+PAGE = tomllib.loads(ENGLISH.read_text(encoding="utf-8"))["page"]
+"""The sentences of English pages; only where headings begin is taken from them."""
+
+
+def opening(key: str) -> str:
+    """The words with which a heading of an English page begins, up to its first value."""
+    return re.split(r" ?[{(]", PAGE[key])[0]
+
+
+MECHANISM, DATA, LINKS = opening("mechanism_heading"), f"{opening('data')}: ", opening("members")
+CHECKED = opening("verified").partition(" vector")[0]
+CONSTRUCTION = opening("construction").partition(",")[0]
+PARTS = (CONSTRUCTION, MECHANISM, CHECKED)
+"""How lines begin that end the data of a continuation sheet."""
+ENDS = (*PARTS, DATA, opening("flattest"), opening("goes_on"))
+"""How lines begin that end a sentence."""
 
 
 @dataclass
@@ -45,34 +65,28 @@ class Printed:
     @property
     def data(self) -> str:
         """The given data, in one line: the table's, and what stands beside it."""
-        stop = next(n for n, line in enumerate(self.lines) if line.startswith("Mechanism, scale"))
+        stop = next(n for n, line in enumerate(self.lines) if line.startswith(MECHANISM))
         pairs = zip(self.cells[::2], self.cells[1::2], strict=True)
         listed = [f"{name} {'' if value[0] == '(' else '= '}{value}" for name, value in pairs]
         said, moved = self.lines[:stop], self.lines[stop:]
-        at = next((n for n, line in enumerate(moved) if line.startswith("Given: ")), None)
+        at = next((n for n, line in enumerate(moved) if line.startswith(DATA)), None)
         if at is not None:
             rest = moved[at:]
             said = rest[: next((n for n, x in enumerate(rest) if x.startswith(PARTS)), len(rest))]
-        return "; ".join([*listed, " ".join(said).removeprefix("Given: ").strip()])
+        return "; ".join([*listed, " ".join(said).removeprefix(DATA).strip()])
 
     @property
     def scale(self) -> float:
         """The millimetres of the mechanism that one of paper stands for."""
-        line = next(line for line in self.lines if line.startswith("Mechanism, scale"))
+        line = next(line for line in self.lines if line.startswith(MECHANISM))
         drawn, real = re.findall(r"[\d.]+", line)[:2]
         return float(real) / float(drawn)
 
     @property
     def links(self) -> dict[str, str]:
         """What the links are by their numbers, as a task lists them."""
-        line = next((line for line in self.lines if line.startswith("Links: ")), "Links: ")
+        line = next((line for line in self.lines if line.startswith(LINKS)), LINKS)
         return dict(re.findall(r"(\d+) = ([^,]+)", line))
-
-
-ENDS = ("Checked by", "Flattest", "the rest is on", "Mechanism, scale", "Given: ", "Construction")
-"""How lines begin that end a sentence."""
-PARTS = ("Construction", "Mechanism, scale", "Checked by")
-"""How lines begin that end the data of a continuation sheet."""
 
 
 def printed_sheets(path: Path) -> Printed:

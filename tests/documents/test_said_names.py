@@ -13,8 +13,7 @@ from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
-from graphkin.text import LANGUAGES, words
-from graphkin.text.markup import AND, Markup, names_in
+from graphkin.text import AND, LANGUAGES, Markup, names_in, words
 from tests.documents.sheet_tools import drawings
 from tests.scene_files import scene_text
 

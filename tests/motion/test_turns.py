@@ -18,7 +18,7 @@ from graphkin.motion.follower_limits import followers
 from graphkin.motion.motion_curves import curves_of
 from graphkin.motion.pieces import strangers
 from graphkin.scene.read_scene import read_scene, read_text
-from graphkin.structure.turn_counting import counted_near, counting, place_of_turns
+from graphkin.structure.wheel_groups import counted_near, counting, place_of_turns
 from graphkin.text.errors import GraphkinError
 from graphkin.web.page_driver import INPUT, driven_by
 from graphkin.web.tracing import Tracing

@@ -20,7 +20,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.personal import joined
-from graphkin.classroom.printing.print_work import PrintOrder, Sheets
+from graphkin.classroom.printing.print_run import PrintOrder, Sheets
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import Layout, lay_out, spans
 from graphkin.construction.core.program import Part, Plane

@@ -10,7 +10,7 @@ import pytest
 from click.testing import CliRunner
 
 from graphkin.cli.main import app
-from graphkin.loops import rounding
+from graphkin.loops import loop_motion
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import ClosureError
@@ -53,7 +53,7 @@ def test_crossings_one_after_the_other_multiply(monkeypatch):
     """Every bound grows with the units of rounding: with a millionth of them errors exceed it."""
     flat = [missed / verdict.limit for missed, verdict in verdicts("4 flat dyads")]
     assert max(flat) < 0.2
-    monkeypatch.setattr(rounding, "UNIT", rounding.UNIT * 1e-6)
+    monkeypatch.setattr(loop_motion, "UNIT", loop_motion.UNIT * 1e-6)
     assert any(missed > verdict.limit for missed, verdict in verdicts("4 flat dyads"))
 
 

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count
 from graphkin.structure.groups import Crank, Driven, Dyad, Geared, Higher, Tie
-from graphkin.structure.joints import Joints
-from graphkin.structure.pairs import Contact, Pin, pairs
+from graphkin.structure.pairs import Contact, Joints, Pin, pairs
 from graphkin.text.errors import StructureError
 from tests.mechanisms import LAW, SHIPPED, mechanism_of, mechanisms, scene_of, shipped
 from tests.scene_files import scene_text

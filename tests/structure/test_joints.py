@@ -9,8 +9,7 @@ import pytest
 
 from graphkin.scene.model import FRAME, Scene
 from graphkin.scene.read_scene import read_scene
-from graphkin.structure.joints import Joints
-from graphkin.structure.pairs import Contact, Pair, Pin, Sliding, contacts, sharers
+from graphkin.structure.pairs import Contact, Joints, Pair, Pin, Sliding, contacts, sharers
 
 SCENES = sorted((Path(__file__).resolve().parents[2] / "examples" / "scenes").glob("*.toml"))
 

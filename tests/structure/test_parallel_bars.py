@@ -18,7 +18,7 @@ from graphkin.motion.jumps import jumps
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher
-from graphkin.structure.joints import parallel_sets
+from graphkin.structure.pairs import parallel_sets
 from graphkin.text.errors import StructureError
 from tests.scene_files import scene_text
 

@@ -13,8 +13,7 @@ from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import proposed_ranges
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.studio.folder import shipped_rules, shipped_text
-from graphkin.studio.lab_panel import LabProposal, LabTexts, beside, lab_advice, trial_of
-from graphkin.studio.panels import StaleError
+from graphkin.studio.panels import LabProposal, LabTexts, StaleError, beside, lab_advice, trial_of
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
 from tests.studio.pump import PUMP, desk_in, ordered

@@ -35,9 +35,9 @@ from graphkin.construction.core.program import Drive, Plane, Step
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.vocabulary import similar_point
 from graphkin.construction.higher_class.closure_solver import closer_of
+from graphkin.construction.plan import TurningOfLink
 from graphkin.construction.registry import SLIPPING, SLIPS
 from graphkin.construction.velocity.relative_motion import square_to
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio, by_parts

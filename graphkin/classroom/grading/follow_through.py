@@ -28,7 +28,7 @@ from graphkin.construction.core.component import Component, component_of
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import EPSILON, OMEGA, TURNING
 from graphkin.construction.core.vocabulary import part_along
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.construction.plan import TurningOfLink
 
 ROUNDED = 0.005
 """The relative rounding allowed for a value that is only computed."""

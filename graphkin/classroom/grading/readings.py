@@ -40,7 +40,7 @@ from graphkin.construction.core.quantities import (
     SWING,
     TIME_RATIO,
 )
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
+from graphkin.construction.plan import TurningOfLink
 from graphkin.numbers.arithmetic import np
 
 Array = Any

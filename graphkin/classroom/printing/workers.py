@@ -31,7 +31,7 @@ AHEAD = 2
 ENDED = message("the system ended the process that worked on it, twice; is the memory full?")
 """The message for an item whose process ends."""
 CLUSTER = "dask://"
-PRELOADED = ("graphkin.classroom.printing.print_work", "graphkin.writers.pdf")
+PRELOADED = ("graphkin.classroom.printing.print_run", "graphkin.writers.pdf")
 """The modules that every worker needs, imported once where processes can share them."""
 
 Given = TypeVar("Given")

@@ -28,7 +28,7 @@ from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import sense_is_open
 from graphkin.classroom.lab.lab_model import Item, Lab, exact_text
 from graphkin.classroom.lab.lab_trial import students_of
-from graphkin.classroom.printing.print_work import FORM, PrintOrder, Sheets
+from graphkin.classroom.printing.print_run import FORM, PrintOrder, Sheets
 from graphkin.classroom.printing.workers import chunks, engine, results
 from graphkin.classroom.roster.students import Student, Taker
 from graphkin.classroom.variants.assign import Assigned, assigned

@@ -40,7 +40,7 @@ from graphkin.structure.driver_count import count, driver_problem
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
 from graphkin.structure.groups import Group, Higher, Tie
 from graphkin.structure.pairs import all_pairs, sharers
-from graphkin.structure.turn_counting import place_of_turns
+from graphkin.structure.wheel_groups import place_of_turns
 from graphkin.text.errors import ClosureError, GraphkinError, Problem, StructureError, WitnessError
 from graphkin.text.school_signs import NAMES, USUAL
 from graphkin.text.tables import labelled, listed, table

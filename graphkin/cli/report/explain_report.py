@@ -1,4 +1,7 @@
-"""The text and JSON of explain: the effects included, the reasons, their steps and times."""
+"""The text and JSON of explain: the effects included, the reasons, their steps and times.
+
+Then the time of each task: load, solve, check, page.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The JSON of solve: SI units, x right, y up, counter-clockwise positive, full precision."""
+"""The JSON and the text of solve: x right, y up, counter-clockwise positive, full precision."""
 
 from __future__ import annotations
 

@@ -11,9 +11,8 @@ from graphkin.construction.cams.cam_centre import (
 )
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.group_images import GroupImages
+from graphkin.construction.group_images import GroupImages, led_by
 from graphkin.construction.guides.guides import turned_with
-from graphkin.construction.guides.led_block import led_by
 from graphkin.scene.model import FRAME
 from graphkin.structure.groups import CamFollower
 from graphkin.structure.pairs import Pin, Sliding

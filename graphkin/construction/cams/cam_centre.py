@@ -1,4 +1,4 @@
-"""The position of a cam's follower by the cam's law, and the centre of curvature under it."""
+"""A cam's follower: its position by the law, the centre of curvature, and the relations of both."""
 
 from __future__ import annotations
 
@@ -22,8 +22,13 @@ from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, as_read, bracketed, figure, length_of
 from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.core.vocabulary import coordinate as along_guide
-from graphkin.construction.guides.guide_line import axis_by_guide
-from graphkin.construction.guides.guides import axis, path_of, path_of_block, standing_guide
+from graphkin.construction.guides.guides import (
+    axis,
+    axis_by_guide,
+    path_of,
+    path_of_block,
+    standing_guide,
+)
 from graphkin.construction.links.link_shapes import bar_length, local_place
 from graphkin.drawing.richtext import words_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol

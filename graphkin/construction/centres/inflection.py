@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from itertools import combinations
 from typing import ClassVar
 
-from graphkin.construction.centres.centre import (
+from graphkin.construction.centres.instant_centre import (
     Centre,
     LineToCentre,
     Places,
@@ -21,9 +21,10 @@ from graphkin.construction.centres.centre import (
     mark_away,
     meet_anywhere,
     normals_at,
+    normals_meet,
+    relative_centre,
     two_points,
 )
-from graphkin.construction.centres.instant_centre import normals_meet, relative_centre
 from graphkin.construction.core.bases import Base
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing

@@ -12,16 +12,17 @@ from functools import cached_property
 from itertools import combinations
 from math import hypot, sqrt
 
-from graphkin.construction.centres.centre import LineToCentre, normals_at
 from graphkin.construction.centres.instant_centre import (
     GuideCentre,
     LineOfCentres,
+    LineToCentre,
     PinCentre,
     RelativeCentre,
     guide_centre,
     kennedy_endless,
     kennedy_line,
     kennedy_meet,
+    normals_at,
     normals_meet,
     pin_centre,
     relative_centre,

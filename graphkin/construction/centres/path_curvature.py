@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
-from graphkin.construction.centres.centre import (
+from graphkin.construction.centres.instant_centre import (
     Centre,
     LineToCentre,
     Places,
@@ -47,7 +47,7 @@ from graphkin.construction.core.vocabulary import action, perpendicular_at
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, dot
-from graphkin.text.markup import AND
+from graphkin.text import AND
 
 # --- its value, and the steps by hand ------------------------------------------------------------
 

@@ -25,8 +25,16 @@ from graphkin.structure.groups import (
     TriedLink,
     Unresolved,
 )
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, ContactName, Joint, Pin, PinLine, Sliding, contacts
+from graphkin.structure.pairs import (
+    Contact,
+    ContactName,
+    Joint,
+    Pin,
+    PinLine,
+    Sliding,
+    contacts,
+    partner,
+)
 from graphkin.text.errors import NO_WORDS, StructureError, joined, message
 
 

@@ -19,8 +19,7 @@ from graphkin.structure.groups import (
     Spun,
     Stretched,
 )
-from graphkin.structure.joints import parallel_sets
-from graphkin.structure.pairs import Pin
+from graphkin.structure.pairs import Pin, parallel_sets
 from graphkin.text.errors import (
     NO_WORDS,
     Message,

@@ -26,7 +26,7 @@ from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.run import Trace
 from graphkin.numbers.arithmetic import smaller
 from graphkin.scene.model import Scene
-from graphkin.text.markup import EQUALS, NOTHING, Markup
+from graphkin.text import EQUALS, NOTHING, Markup
 
 
 class Size(Struct, frozen=True):

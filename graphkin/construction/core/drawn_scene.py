@@ -28,8 +28,7 @@ from graphkin.drawing.scale import Extent, Scales, extent_of
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.scene.model import FRAME, Scene, Slide
-from graphkin.text import Words
-from graphkin.text.markup import Markup
+from graphkin.text import Markup, Words
 
 if TYPE_CHECKING:
     from graphkin.drawing.field import Field

@@ -24,8 +24,7 @@ from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, At, Driver, GuideOrTrack, Link, Scene
 from graphkin.scene.quantity import Quantity, shortest
-from graphkin.text import Words
-from graphkin.text.markup import NOTHING
+from graphkin.text import NOTHING, Words
 
 NAUGHT = 1e-6
 """A vector drawn shorter than this, in mm, counts as zero."""

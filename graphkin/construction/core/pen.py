@@ -38,8 +38,8 @@ from graphkin.scene.model import FRAME, Driver, Scene
 from graphkin.scene.wheels import angle_less_cycles
 from graphkin.structure.groups import Dyad
 from graphkin.structure.pairs import Sliding, SlippingName, is_in_scene
-from graphkin.structure.turn_counting import counted_near
 from graphkin.structure.turning import together
+from graphkin.structure.wheel_groups import counted_near
 from graphkin.text.errors import ClosureError
 
 R = TypeVar("R", bound=Roles)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from enum import Enum
-from typing import Any, ClassVar, Literal, NamedTuple
+from typing import Any, ClassVar, Literal
 
 from msgspec import Struct
 
@@ -210,7 +210,7 @@ class Drive(Roles, frozen=True):
     angle: OwnStep | None = None
 
 
-class PairForce(NamedTuple):
+class PairForce(Struct, frozen=True):
     """The force of one link of a pair on the other: the steps that hold it.
 
     ``name`` is that of the pair, ``links`` the link on which the force acts and the other one.
@@ -233,7 +233,7 @@ class PairForce(NamedTuple):
         return tuple(number for number in every if number is not None)
 
 
-class DriverForce(NamedTuple):
+class DriverForce(Struct, frozen=True):
     """The balance of a driver on a ``link``: the step of its force or of its moment.
 
     ``sense`` is -1 where the link is not the driver's own.

@@ -14,8 +14,7 @@ from msgspec import Struct
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import OnPaper
-from graphkin.text import Words
-from graphkin.text.markup import saying
+from graphkin.text import Words, saying
 
 
 class Term(Struct, frozen=True):

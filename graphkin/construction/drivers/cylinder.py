@@ -13,14 +13,15 @@ from graphkin.construction.core.pen import (
 from graphkin.construction.core.program import Part, Plane
 from graphkin.construction.drivers.driven_slide import slide_image
 from graphkin.construction.group_images import GroupImages, end_on_driven, sliding_effect
-from graphkin.construction.guides.guide_line import (
+from graphkin.construction.guides.guides import (
     axis_by_guide,
     axis_stretched,
     guide_at,
+    known_guide,
     length_of,
+    local_line,
     stretch,
 )
-from graphkin.construction.guides.guides import known_guide, local_line
 from graphkin.construction.links import position
 from graphkin.construction.links.dyad_by_arcs import draw_arc
 from graphkin.construction.links.link_shapes import local_place

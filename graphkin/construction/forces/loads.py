@@ -36,7 +36,7 @@ from graphkin.numbers.plane import dot
 from graphkin.scene.forces import ByDriver, Directed, Forces, Load, Mass, Size, Spring
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import FRAME, Scene
-from graphkin.text.markup import COMMA, saying
+from graphkin.text import COMMA, saying
 
 
 def newtons(drawing: Drawing, size: float) -> str:

@@ -31,7 +31,7 @@ from graphkin.construction.forces.loads import LinkForce, drawn_force, force_amo
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
-from graphkin.text.markup import AND, COMMA
+from graphkin.text import AND, COMMA
 
 PART = "reaction-part"
 """The style of the parts of reactions along and across bars."""

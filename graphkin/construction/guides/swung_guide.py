@@ -19,8 +19,8 @@ from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, ray
-from graphkin.construction.guides.guide_line import axis_by_guide
 from graphkin.construction.guides.guides import (
+    axis_by_guide,
     height_between,
     height_of,
     is_through,

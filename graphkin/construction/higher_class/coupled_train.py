@@ -35,8 +35,7 @@ from graphkin.drawing.symbol_markup import bar
 from graphkin.numbers.arithmetic import Real, below, pick
 from graphkin.scene.link_points import under
 from graphkin.structure.groups import CoupledTrain, Higher
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, SlippingName
+from graphkin.structure.pairs import Contact, SlippingName, partner
 from graphkin.text.errors import Problem, Sought, message
 
 FREE = 1e-12

@@ -37,8 +37,7 @@ from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding, partner
 from graphkin.text import MINUS
 
 SHARE = "*λ*"

@@ -13,9 +13,14 @@ from graphkin.construction.core.branches import closure_of, has_two_ways
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Given, Part, Plane, Step
 from graphkin.construction.core.vocabulary import action, coordinate, difference, product
-from graphkin.construction.guides.guide_line import axis_with_guide, turned_back
-from graphkin.construction.guides.guides import axis, path_of, standing_guide
-from graphkin.construction.guides.led_block import led_by
+from graphkin.construction.group_images import led_by
+from graphkin.construction.guides.guides import (
+    axis,
+    axis_with_guide,
+    path_of,
+    standing_guide,
+    turned_back,
+)
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.trial import Unknown
@@ -26,8 +31,7 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Dyad, Group, Higher, KeptParallel, Stretched, Tie, TriedLink
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding, partner
 
 Each = Callable[[Pen, Group, tuple[Base, ...]], None]
 """The compiler's function that draws one group, for one of the three plans."""

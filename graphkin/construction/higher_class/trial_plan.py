@@ -55,7 +55,7 @@ from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.pairs import Pin
-from graphkin.text.markup import AND
+from graphkin.text import AND
 
 SECOND = tuple(TAGS)[1]
 """The tag of the second of two trial plans."""

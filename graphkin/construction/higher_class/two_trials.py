@@ -64,8 +64,7 @@ from graphkin.numbers.arithmetic import Point, Real, pick
 from graphkin.numbers.plane import dot
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin, Sliding
+from graphkin.structure.pairs import Pin, Sliding, partner
 
 TAGS = tuple(MARKED)
 """The tags of the points of the two plans, behind their names."""

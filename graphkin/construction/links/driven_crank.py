@@ -17,7 +17,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep
 from graphkin.construction.core.quantities import in_degrees
 from graphkin.construction.core.vocabulary import action, ray
-from graphkin.construction.guides.guide_line import axis_by_guide
+from graphkin.construction.guides.guides import axis_by_guide
 from graphkin.construction.links.link_shapes import bar_length, local_place
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -1,6 +1,6 @@
-"""The mechanism to scale with the field's symbols: bars, plates, pins and pivots.
+"""The mechanism to scale with the field's symbols: bars, plates, pins, pivots and cams.
 
-The numbers of links: inside their plates, or next to their bars.
+The numbers of links are inside their plates, or next to their bars.
 """
 
 from __future__ import annotations

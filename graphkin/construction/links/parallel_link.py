@@ -9,8 +9,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Construction
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
-from graphkin.construction.guides.guide_line import axis_by_guide, axis_with_guide
-from graphkin.construction.guides.guides import axis
+from graphkin.construction.guides.guides import axis, axis_by_guide, axis_with_guide
 from graphkin.construction.links.link_shapes import local_place
 from graphkin.drawing.symbol_markup import escape
 from graphkin.scene.model import FRAME

@@ -24,11 +24,10 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import similar_point
-from graphkin.construction.guides.guide_line import point_on_link
+from graphkin.construction.guides.guides import point_on_link
 from graphkin.construction.links.driven_crank import mark_off
 from graphkin.construction.links.dyad_by_arcs import arcs_meet, draw_arc, side_words, stated_bar
 from graphkin.construction.links.link_shapes import bar_length, local_place, ratio_of, step_along
-from graphkin.construction.links.rolled_turn import rolled_turn
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.plane import Line, cross, crossing_sine, dot
 from graphkin.scene.link_points import is_under, lettered
@@ -53,6 +52,8 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
 
     def turned(self, drawing: Drawing) -> float | None:
         """The degrees by which its wheel has turned the link; None where no wheel turns it."""
+        from graphkin.construction.links.rolled_turn import rolled_turn
+
         kind = rolled_turn(drawing, self.link)
         return None if kind is None else kind.since(drawing)
 
@@ -91,6 +92,8 @@ class PlacedPoint(Construction, frozen=True, kw_only=True):
 
 def of_rolled_turns(drawing: Drawing) -> Iterator[Relation]:
     """The relations for the wheel rotations that sentences give, and for those behind them."""
+    from graphkin.construction.links.rolled_turn import rolled_turn
+
     stated: dict[str, float] = {}
     for each in constructions(drawing.trace.program, PlacedPoint):
         kind = rolled_turn(drawing, each.link) if each.is_turned(drawing) else None

@@ -9,9 +9,16 @@ from msgspec import Struct
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Part, Plane
-from graphkin.construction.guides.guide_line import axis_with_guide, cross_guides, turned_back
-from graphkin.construction.guides.guides import axis, direction_on, path_of, turned_with
-from graphkin.construction.guides.led_block import led_by
+from graphkin.construction.group_images import led_by
+from graphkin.construction.guides.guides import (
+    axis,
+    axis_with_guide,
+    cross_guides,
+    direction_on,
+    path_of,
+    turned_back,
+    turned_with,
+)
 from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import cut_line, meet_arcs
 from graphkin.construction.links.link_shapes import bar_length, local_place, place

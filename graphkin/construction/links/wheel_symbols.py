@@ -1,4 +1,4 @@
-"""Wheels, gears, racks and tracks, in the manner of ISO 2203, and profiles on the mechanism."""
+"""Wheels, gears with their teeth, racks and tracks, in the manner of ISO 2203, and profiles."""
 
 from __future__ import annotations
 

@@ -22,8 +22,8 @@ from graphkin.construction.core.program import Effect, OwnStep, Plane, Step, pla
 from graphkin.construction.core.quantities import OMEGA
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
+from graphkin.construction.plan import TurningOfLink
 from graphkin.construction.velocity.relative_motion import PerpendicularThrough
-from graphkin.construction.velocity.turning_of_link import TurningOfLink
 from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, dot

@@ -42,8 +42,8 @@ from graphkin.numbers.plane import Line, dot
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.pairs import Contact, contacts
+from graphkin.text import AND, NOTHING
 from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, message
-from graphkin.text.markup import AND, NOTHING
 
 PLAN = "kutzbach"
 """The value of [sheet] plan that asks for this plan."""

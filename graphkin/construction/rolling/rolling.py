@@ -57,9 +57,8 @@ from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver, Link, Wheel
 from graphkin.scene.quantity import exact
 from graphkin.structure.groups import Geared, Train, other_of
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
-from graphkin.structure.turn_counting import stated_rolling
+from graphkin.structure.pairs import Contact, Pin, Sliding, partner
+from graphkin.structure.wheel_groups import stated_rolling
 from graphkin.text.errors import Problem, StructureError, message
 
 

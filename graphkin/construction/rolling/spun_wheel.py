@@ -21,8 +21,7 @@ from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import arm_rolled, axis_turned
 from graphkin.scene.link_points import under
 from graphkin.structure.groups import Geared, Higher, Spun
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Pin
+from graphkin.structure.pairs import Pin, partner
 
 # --- the mechanism -------------------------------------------------------------------------------
 

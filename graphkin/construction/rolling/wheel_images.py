@@ -15,12 +15,12 @@ from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.vocabulary import action, in_proportion, speed_at_rim
 from graphkin.construction.guides.guides import known_guide
-from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of
+from graphkin.construction.normal_component import known_and_free
+from graphkin.construction.plan import ACCELERATION, VELOCITY, Plan, omega_of, turning_of_link
 from graphkin.construction.rolling import rolling
 from graphkin.construction.rolling.contact_points import by_contact
 from graphkin.construction.rolling.rolling import radius_of, seen_from
 from graphkin.construction.rolling.rolling_normal import common_normal, rolled_image
-from graphkin.construction.tangential_direction import known_and_free
 from graphkin.construction.velocity.image_of_link import (
     crossed_image,
     found_by_turning,
@@ -29,14 +29,12 @@ from graphkin.construction.velocity.image_of_link import (
     translated_image,
 )
 from graphkin.construction.velocity.relative_motion import parallel_through
-from graphkin.construction.velocity.turning_of_link import turning_of_link
 from graphkin.drawing.symbol_markup import of_wheel
 from graphkin.numbers.arithmetic import Real
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.groups import Geared, Train
-from graphkin.structure.joints import partner
-from graphkin.structure.pairs import Contact, Pin, Sliding
+from graphkin.structure.pairs import Contact, Pin, Sliding, partner
 
 # --- rates of wheels on fixed pins, by their radii ------------------------------------------------
 

@@ -1,9 +1,11 @@
-"""A traced program that can be run: its source as numpy functions, or as a compiled loop.
-
-A traced graph as JavaScript source: straight-line code, for a page that moves by itself.
+"""A traced program as source: numpy functions, a compiled loop with its batches, or JavaScript.
 
 An expression that is used once is written inside its user. Every other expression, and a long
 number that is used more than once, has a short name.
+
+Tracing a program and writing its source takes some milliseconds, once for each request; compiling
+takes a second or more. So small batches run step by step. The choice depends only on the size of
+the batch, not on earlier runs; the results differ by rounding alone.
 """
 
 from __future__ import annotations

@@ -43,7 +43,7 @@ from graphkin.construction.velocity.relative_motion import AboutPivot
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.scene.link_points import lettered
-from graphkin.text.markup import EQUALS, NOTHING
+from graphkin.text import EQUALS, NOTHING
 
 
 class LaidOffByRate(Construction, frozen=True):

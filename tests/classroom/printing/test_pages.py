@@ -31,8 +31,8 @@ from graphkin.classroom.printing.personal import (
     shortened,
     without_crosses,
 )
-from graphkin.classroom.printing.print_work import PrintOrder, Sheets, StudentSheets
-from graphkin.classroom.printing.print_work import make as made
+from graphkin.classroom.printing.print_run import PrintOrder, Sheets, StudentSheets
+from graphkin.classroom.printing.print_run import make as made
 from graphkin.classroom.roster.students import Student, Taker
 from graphkin.documents import VIEWS
 from graphkin.drawing.field import A3, A4_PAGE, LETTER

@@ -13,10 +13,9 @@ from pathlib import Path
 import pytest
 
 from graphkin.classroom.printing import print_run as running
-from graphkin.classroom.printing import print_work
 from graphkin.classroom.printing.edition import read_edition
 from graphkin.classroom.printing.print_run import JOURNAL, Means, Outcome, PrintRequest, print_class
-from graphkin.classroom.printing.print_work import make as make_sheets
+from graphkin.classroom.printing.print_run import make as make_sheets
 from graphkin.text.errors import PLAIN_TRACEBACK, PageError
 from graphkin.writers import commit
 from graphkin.writers.commit import LOCK, locked
@@ -68,14 +67,14 @@ def test_a_fault_in_one_student_s_sheets_is_told_of_that_one(tmp_path, monkeypat
     """The others get the very files that they get without."""
     folders = [write_class(tmp_path / name, IDS[:3]) for name in "ab"]
     printed(folders[0])
-    of = print_work.owner
+    of = running.owner
 
     def owner(taker, *paper):
         if taker.student.id == IDS[1]:
             raise ZeroDivisionError("of a kind that nobody foresaw")
         return of(taker, *paper)
 
-    monkeypatch.setattr(print_work, "owner", owner)
+    monkeypatch.setattr(running, "owner", owner)
     monkeypatch.delenv(PLAIN_TRACEBACK, raising=False)
     ((taker, problems),) = printed(folders[1]).refused
     assert taker.student.id == IDS[1]

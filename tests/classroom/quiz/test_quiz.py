@@ -19,7 +19,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.graded import Answer, Status
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.lab.read_lab import read_lab
-from graphkin.classroom.printing.print_work import PrintOrder
+from graphkin.classroom.printing.print_run import PrintOrder
 from graphkin.classroom.quiz.moodle_quiz import (
     Gap,
     Taken,
