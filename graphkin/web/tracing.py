@@ -16,7 +16,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.construction.core.kind import construction
-from graphkin.construction.core.program import Program, Step
+from graphkin.construction.core.program import CLOSE, Program, Step
 from graphkin.construction.core.run import Trace, made_ready, run_moving
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of
@@ -31,7 +31,7 @@ from graphkin.motion.pieces import Path, Piece, reachable_ranges, through
 from graphkin.motion.sweep import Sweep, Turned, name_of, sweep_of
 from graphkin.numbers.arithmetic import np, pick
 from graphkin.numbers.common_roots import solved
-from graphkin.scene.model import quantities_within
+from graphkin.scene.model import Branch, Closure, Scene, quantities_within
 from graphkin.web.frames import MOST_TURNS
 from graphkin.web.page_driver import INPUT, LEAST, PARTS, PageDriver, Reach, reach_of, window
 
@@ -43,7 +43,14 @@ SLACK = 1e-6
 
 def form(step: Step) -> tuple[object, ...]:
     """What steps have in common that differ in their numbers alone."""
-    return step.action, step.args, len(step.extra)
+    action = step.action if closer_of(step) is None else CLOSE
+    return action, step.args, len(step.extra)
+
+
+def sides(scene: Scene, piece: Piece) -> dict[str, Branch]:
+    """The closures of a piece, but for numbered ones: those are followed, whatever their number."""
+    own = {name: each for name, each in piece.branches.items() if not isinstance(each, Closure)}
+    return {**scene.branches, **own}
 
 
 class Tracing(Struct, frozen=True, dict=True):
@@ -95,14 +102,12 @@ class Tracing(Struct, frozen=True, dict=True):
         closure is constructed by other steps, the page keeps the one that is drawn.
         """
         pieces, scene = self.path.ranges[0], self.mechanism.scene
-        if len(pieces) == 1 or pieces[0].course.closers:
+        branches = [sides(scene, piece) for piece in pieces]
+        if all(each == branches[0] for each in branches):
             return program
         turns = range(-MOST_ROUND, MOST_ROUND + 1) if self.path.period else (0,)
         shifted = [(turn * self.path.period, piece) for turn in turns for piece in pieces]
-        along = [
-            Mechanism(replace(scene, branches={**scene.branches, **piece.branches})).program.steps
-            for piece in pieces
-        ]
+        along = [Mechanism(replace(scene, branches=each)).program.steps for each in branches]
         if len({tuple(map(form, steps)) for steps in along}) > 1:
             return program
         steps = list(program.steps)

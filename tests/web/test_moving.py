@@ -34,6 +34,7 @@ from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
 from tests.chosen import EVERY, HALVES, number_of
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
+from tests.scene_files import FOLDER as TESTS
 from tests.web.redrawn import apart, kind_of, numbers, off_by, redrawn_near
 from tests.web.written import Numbers, ran, read
 
@@ -386,6 +387,24 @@ def test_a_parallelogram_stays_one_through_its_change_points(page):
             [float(here["marks"][pins[p]][c]) for c in ("cx", "cy")] for p in "BC"
         )
         assert abs(by - cy) < LIMIT < cx - bx
+
+
+def test_an_antiparallelogram_stays_one_beside_a_followed_group(page):
+    """A and B lie on both sides of the frame's line all the way round, and the plate follows."""
+    mechanism = load(TESTS / "web/plate-beside-an-antiparallelogram.toml")
+    sheets = screen_sheets(mechanism)
+    found = moving(mechanism, sheets)
+    assert found is not None and found.reach.whole
+    pins = {
+        mark.name: f"m0-{k}"
+        for k, mark in enumerate(sheets[0].left)
+        if isinstance(mark, CircleMark) and mark.cls == "pin"
+    }
+    rows = ran(page, found, [10, 170, 190, 350])
+    assert all(here["ok"] for here in rows)
+    a, b = ([float(here["marks"][pins[p]]["cy"]) for here in rows] for p in "AB")
+    line = (a[0] + a[-1]) / 2
+    assert all((ya - line) * (yb - line) < 0 for ya, yb in zip(a, b, strict=True))
 
 
 def test_a_plate_is_hidden_nowhere(page):

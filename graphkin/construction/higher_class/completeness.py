@@ -22,8 +22,8 @@ from graphkin.numbers.plane import cross
 Array = Any
 GRID = {1: 256, 2: 40}
 """Cells along each unknown to begin with, by how many are tried; more are not asked."""
-WORK = 6_000_000
-"""Steps that run in cells before the proof is given up: one to two seconds."""
+WORK = 20_000_000
+"""Steps that run in cells before the proof is given up: about one second."""
 TOGETHER = 4096
 """Cells that are looked at together."""
 FEW, PARTS = 200, 8
