@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from functools import cache
 from itertools import pairwise
@@ -31,7 +32,9 @@ from graphkin.scene.house import house_of
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import StructureError
+from tests.chance.forces import dyads
 from tests.chosen import FOLDER, by_turns
+from tests.laws.force_routes import loaded
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text
 
@@ -95,6 +98,15 @@ def test_lever_and_polygons_agree_and_the_sheet_says_it(name):
     shown = (mark for page in sheet_of(name, "key") for mark in texts(page))
     (said,) = {mark.markup for mark in shown if mark.name == "witness"}
     assert "equations of equilibrium" in said and "lever and polygons" in said
+
+
+def test_seven_fields_beside_a_wide_mechanism_have_room():
+    """Six polygons and the lever, which are 143 mm wide together; the usual captions need 150."""
+    made = dyads(30)
+    mechanism = loaded(made.mechanism, random.Random(30))
+    pages = next(each.pages for each in hand_out(mechanism) if each.kind == "force")
+    for page in pages:
+        page.check()
 
 
 def printed_arms(name: str, view: str = "key") -> dict[str, str]:
