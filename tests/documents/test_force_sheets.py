@@ -47,6 +47,7 @@ NAMES = (
     "planetary",
     "rack",
     "ram",
+    "roller",
     "shaper",
     *("tipper", "cam"),
 )
