@@ -21,6 +21,7 @@ from graphkin.documents.force_fields import force_drawing, traced
 from graphkin.documents.positions import positions_of
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import force_relations
+from graphkin.documents.sheet import asked_words
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.field import paper_of
 from graphkin.drawing.marks import LineMark, Page, Text, reach, style_class
@@ -134,6 +135,20 @@ def test_the_key_has_the_arms_of_weights_and_of_the_lever(name):
             assert printed[symbol(number)] == f"{length:.2f}"
             found += 1
     assert found > 3
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("gears", ["the reactions in pins", "the reactions in the contacts of links 2, 3"]),
+        ("belt-on-arm", ["the reactions in pins", "both strands of the belt of link 2"]),
+        ("rack", ["the guide of block", "the contact of link"]),
+    ],
+)
+def test_the_task_names_each_pair_by_its_kind(name, said):
+    asked = [plain(each) for each in asked_words(forces_of(name))]
+    for words_said in said:
+        assert any(words_said in each for each in asked), asked
 
 
 def test_a_task_lists_no_arms():

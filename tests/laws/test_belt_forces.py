@@ -98,6 +98,16 @@ def test_strands_are_those_of_the_equations_and_of_fifty_digits(name, seed):
     assert far_from_exact(made) < CLOSE
 
 
+def test_both_strands_are_asked_by_their_wheel():
+    """Fields of a lab, explain and the task follow from what is asked."""
+    mechanism = mechanism_of(BELT.format(belt="ratio = 4", moment=-45)).with_forces
+    assert {name for quantity, name in mechanism.asked() if name.startswith("R")} == {
+        "R′_12",
+        "R″_12",
+        "R_02",
+    }
+
+
 def test_a_strand_that_would_push_is_refused():
     with pytest.raises(StructureError) as caught:
         of("pretension = 100")

@@ -18,7 +18,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
 from graphkin.construction.core.quantities import BALANCING_FORCE, BALANCING_MOMENT, PAIR_REACTION
 from graphkin.construction.core.vocabulary import along_bar
-from graphkin.construction.forces.belt_force import STRANDS, belt_strands
+from graphkin.construction.forces.belt_force import belt_strands
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import (
     along_line,
@@ -28,6 +28,7 @@ from graphkin.construction.forces.line_force import (
     pressure,
 )
 from graphkin.construction.forces.loads import (
+    STRANDS,
     LinkForce,
     PassedReaction,
     applied,
