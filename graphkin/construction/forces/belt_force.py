@@ -68,9 +68,13 @@ def strand_force(centre: Point, edge: Point, number: Real, *rest: Any) -> Point:
 
 
 def tension(more: Real, number: Real, rule: str) -> Real:
-    """The tension of a strand that carries ``more`` than the other."""
+    """The tension of a strand that carries ``more`` than the other.
+
+    A loose strand raises ValueError; in a batch it is NaN.
+    """
     if rule == "pretension":
-        return number + more / 2
+        found = number + more / 2
+        return found + 0 * sqrt(found)
     if rule == "slack":
         return number + pick(more > 0, more, 0 * more)
     return pick(more > 0, number * more, -more) / (number - 1)
