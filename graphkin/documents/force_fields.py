@@ -45,10 +45,10 @@ from graphkin.text.errors import PageError, Problem, StructureError, WitnessErro
 
 SIDE, TOP, LOW = 13.0, 13.0, 10.0
 """Room beside, above and below a polygon for its lines and labels, in mm; its caption is above."""
-LEAST = 50.0
-"""Least width of a field in mm, for its caption."""
-LEVER = 52.0
-"""The size in mm for which room is made for the lever."""
+LEAST, NARROW = 50.0, 40.0
+"""Least width of a field in mm, for its caption; and where the fields have no room otherwise."""
+LEVER, LOW_LEVER = 52.0, 30.0
+"""The size in mm for which room is made for the lever, likewise."""
 LEVER_SIDE = 16.0
 """Room around the lever in mm, for the arrows of forces."""
 SMALL = 2.5
@@ -68,11 +68,18 @@ class FieldNeed(NamedTuple):
     wide: Any
     high: Any
     fixed: bool = False
+    least: float = LEAST
+
+    @property
+    def narrow(self) -> FieldNeed:
+        """The same where fields have no room otherwise: less for captions and for the lever."""
+        share = LOW_LEVER / LEVER if self.fixed else 1.0
+        return FieldNeed(self.wide * share, self.high * share, self.fixed, NARROW)
 
     def width(self, mm: float) -> Any:
         """The width of the field at a scale in mm/N."""
         side = LEVER_SIDE if self.fixed else SIDE
-        return larger(self.wide * (1 if self.fixed else mm) + 2 * side, LEAST)
+        return larger(self.wide * (1 if self.fixed else mm) + 2 * side, self.least)
 
     def height(self, mm: float) -> Any:
         """The height of the field at a scale in mm/N."""
@@ -90,8 +97,7 @@ def laid_out(drawing: ForceDrawing, mechanism: Field) -> ForceDrawing:
     """
     rect = drawing.paper.beside(mechanism.rect)
     boxes, lever = drawing.extents
-    cells = cells_of(drawing.extents)
-    kF, rows = found(cells, rect)
+    kF, cells, rows = found(cells_of(drawing.extents), rect)
     fields = placed(cells, rows, rect, 1 / kF)
     polygons = {
         number: field_of(box, part, 1 / kF, (TOP - LOW) / 2)
@@ -128,17 +134,17 @@ def field_of(box: Extent, rect: Rect, mm: float, lower: float) -> Field:
     return Field(rect, mm, box.middle, (x, y + lower))
 
 
-def found(cells: Sequence[FieldNeed], rect: Rect) -> tuple[float, Rows]:
-    """The smallest preferred kF in N/mm at which all cells have room, and their rows.
+def found(cells: Sequence[FieldNeed], rect: Rect) -> tuple[float, Sequence[FieldNeed], Rows]:
+    """The smallest preferred kF in N/mm at which all cells have room; the cells, and their rows.
 
     Raises PageError where they have none.
     """
     wide, high = rect[2] - rect[0], rect[3] - rect[1]
-    kF = float(smallest(cells, np.array([wide]), high)[0])
-    if isfinite(kF):
-        return kF, max(
-            arrangements(len(cells)), key=lambda rows: slack(cells, rows, wide, high, 1 / kF)
-        )
+    for some in (cells, [each.narrow for each in cells]):
+        kF = float(of_cells(some, np.array([wide]), high)[0])
+        if isfinite(kF):
+            every = arrangements(len(some))
+            return kF, some, max(every, key=lambda rows: slack(some, rows, wide, high, 1 / kF))
     raise PageError(
         Problem(
             "sheet",
@@ -154,8 +160,16 @@ def found(cells: Sequence[FieldNeed], rect: Rect) -> tuple[float, Rows]:
 def smallest(cells: Sequence[FieldNeed], wide: Any, high: float) -> Any:
     """The smallest preferred kF in N/mm of many variants; NaN where the cells have no room.
 
-    The needs of cells, and the widths for them, are arrays.
+    The needs of cells, and the widths for them, are arrays. Cells are narrow where they must be.
     """
+    kF = of_cells(cells, wide, high)
+    if np.isfinite(kF).all():
+        return kF
+    return np.where(np.isfinite(kF), kF, of_cells([e.narrow for e in cells], wide, high))
+
+
+def of_cells(cells: Sequence[FieldNeed], wide: Any, high: float) -> Any:
+    """The smallest preferred kF at which cells have room as they are."""
     sizes = [larger(cell.wide, cell.high) for cell in cells if not cell.fixed]
     largest = np.broadcast_to(reduce(larger, sizes, 0.0), np.shape(wide))
     least = np.where(largest > 0, largest / high, 1.0)

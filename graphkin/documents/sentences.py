@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from itertools import product
 from math import degrees
@@ -47,6 +47,7 @@ from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import bar, escape, symbol, without_index
 from graphkin.scene.forces import ByDriver, Directed, Load, Size
 from graphkin.scene.link_points import ends_of, lettered
+from graphkin.scene.model import Link, Scene
 from graphkin.text import AND, names_in
 
 
@@ -422,19 +423,30 @@ def forces_asked(drawing: Drawing) -> list[str]:
     words, forces = drawing.words, drawing.scene.forces
     assert forces is not None
     found: list[str] = []
-    keys = (
-        ("ask.reactions", "ask.reactions_many", False),
-        ("ask.guide_reactions", "ask.guide_reactions_many", True),
-    )
-    for one, many, blocks in keys:
-        names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
+    for key, names in asked_by_pair(drawing.scene, forces.reactions).items():
         if names:
-            symbols = (escape(n) if blocks else symbol(lettered(n)) for n in names)
-            mentioned = words("list_mark").join(symbols)
-            found.append(words(many if len(names) > 1 else one, list=mentioned))
+            mentioned = words("list_mark").join(names)
+            found.append(words(f"{key}_many" if len(names) > 1 else key, list=mentioned))
     if forces.balance:
         lever = isinstance(drawing, ForceDrawing) and drawing.extents.lever is not None
         found.append(words("ask.balance_lever" if lever else "ask.balance"))
+    return found
+
+
+def asked_by_pair(scene: Scene, asked: Sequence[str]) -> dict[str, list[str]]:
+    """The pins and the links whose reactions are asked, by the request for their kind of pair."""
+    links = {name: scene.links[name] for name in asked if name in scene.links}
+    kinds: dict[str, Callable[[Link], bool]] = {
+        "ask.guide_reactions": lambda link: bool(link.slides),
+        "ask.contact_reactions": lambda link: (
+            any(not each.belt for each in link.rolls) or link.name in scene.cams
+        ),
+        "ask.belt_reactions": lambda link: any(each.belt for each in link.rolls),
+    }
+    pins: list[str] = [symbol(lettered(name)) for name in asked if name not in links]
+    found = {"ask.reactions": pins}
+    for key, has in kinds.items():
+        found[key] = [escape(name) for name, link in links.items() if has(link)]
     return found
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import re
 from functools import cache
 from itertools import pairwise
@@ -20,6 +21,7 @@ from graphkin.documents.force_fields import force_drawing, traced
 from graphkin.documents.positions import positions_of
 from graphkin.documents.scaling import sheet_motion
 from graphkin.documents.sentences import force_relations
+from graphkin.documents.sheet import asked_words
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.field import paper_of
 from graphkin.drawing.marks import LineMark, Page, Text, reach, style_class
@@ -31,7 +33,9 @@ from graphkin.scene.house import house_of
 from graphkin.scene.read_scene import read_scene, read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import StructureError
+from tests.chance.forces import dyads
 from tests.chosen import FOLDER, by_turns
+from tests.laws.force_routes import loaded
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text
 
@@ -44,6 +48,7 @@ NAMES = (
     "planetary",
     "rack",
     "ram",
+    "roller",
     "shaper",
     *("tipper", "cam"),
 )
@@ -97,6 +102,15 @@ def test_lever_and_polygons_agree_and_the_sheet_says_it(name):
     assert "equations of equilibrium" in said and "lever and polygons" in said
 
 
+def test_seven_fields_beside_a_wide_mechanism_have_room():
+    """Six polygons and the lever, which are 143 mm wide together; the usual captions need 150."""
+    made = dyads(30)
+    mechanism = loaded(made.mechanism, random.Random(30))
+    pages = next(each.pages for each in hand_out(mechanism) if each.kind == "force")
+    for page in pages:
+        page.check()
+
+
 def printed_arms(name: str, view: str = "key") -> dict[str, str]:
     """The arms of a sheet's tables, by their symbols."""
     cells = [m for page in sheet_of(name, view) for m in texts(page) if style_class(m) == "table"]
@@ -121,6 +135,20 @@ def test_the_key_has_the_arms_of_weights_and_of_the_lever(name):
             assert printed[symbol(number)] == f"{length:.2f}"
             found += 1
     assert found > 3
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [
+        ("gears", ["the reactions in pins", "the reactions in the contacts of links 2, 3"]),
+        ("belt-on-arm", ["the reactions in pins", "both strands of the belt of link 2"]),
+        ("rack", ["the guide of block", "the contact of link"]),
+    ],
+)
+def test_the_task_names_each_pair_by_its_kind(name, said):
+    asked = [plain(each) for each in asked_words(forces_of(name))]
+    for words_said in said:
+        assert any(words_said in each for each in asked), asked
 
 
 def test_a_task_lists_no_arms():

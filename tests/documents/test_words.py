@@ -283,7 +283,8 @@ def test_every_sentence_is_used():
     USED.clear()
     spoken = Recording("en")
     every_page(mechanism_named(SHIPPED[0], 7), spoken, ("key", "task", "steps", "overlay"))
-    every_page(load(FORCES / "ram.toml"), spoken)
+    for name in ("ram", "roller", "gears", "shaper", "belt-on-arm"):
+        every_page(load(FORCES / f"{name}.toml"), spoken)
     waiting = (
         words("en").sentences.keys()
         - literals()

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 import random
 
+import numpy as np
 import pytest
 
 from graphkin.construction.forces.force_plan import undrawn
 from graphkin.construction.reactions import ForceSolution
 from graphkin.mechanism import Mechanism
+from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError, StructureError
 from tests.chosen import FOLDER
@@ -98,10 +100,29 @@ def test_strands_are_those_of_the_equations_and_of_fifty_digits(name, seed):
     assert far_from_exact(made) < CLOSE
 
 
+def test_both_strands_are_asked_by_their_wheel():
+    """Fields of a lab, explain and the task follow from what is asked."""
+    mechanism = mechanism_of(BELT.format(belt="ratio = 4", moment=-45)).with_forces
+    assert {name for quantity, name in mechanism.asked() if name.startswith("R")} == {
+        "R′_12",
+        "R″_12",
+        "R_02",
+    }
+
+
 def test_a_strand_that_would_push_is_refused():
     with pytest.raises(StructureError) as caught:
         of("pretension = 100")
     assert "push with 50 N" in str(caught.value)
+
+
+def test_a_loose_belt_has_no_forces_along_a_turn():
+    """A moment of 45 N·m over a part of the turn alone takes 300 N beside twice 100 N."""
+    text = BELT.format(belt="pretension = 100", moment="[[0, 0], [90, -45], [180, 0]]")
+    forces = cycle(mechanism_of(text), steps=12).forces
+    pulls = next(each for (_, name), each in forces.values.items() if name == "R″_12")
+    loose = np.isnan(pulls)
+    assert loose.any() and not loose.all()
 
 
 def test_a_belt_without_a_tension_is_refused():

@@ -77,6 +77,7 @@ OTHERS = {
     "wheel on an arm": ("gears-planet", "gears-ring", "gears-lever", "gears-sun-and-planet"),
     "rack": ("gears-rack", "bar-on-roller"),
     "class III": ("stephenson-3-crank", "stephenson-2-ternary", "link-motion"),
+    "driven wheel": ("roller", "centrodes-roller", "plank-hinged"),
     "arm driven against an arm": ("excavator-absolute", "excavator-relative"),
 }
 """Scenes of the gallery by the kind of group whose forces they have."""

@@ -32,7 +32,7 @@ from graphkin.construction.core.quantities import (
     MotionQuantity,
     names_asked,
 )
-from graphkin.construction.forces.loads import is_asked
+from graphkin.construction.forces.loads import STRANDS, is_asked
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.forces import Forces
@@ -229,7 +229,11 @@ def with_sense(name: str, sign: str, quantity: MotionQuantity, of: str) -> Itera
 def force_items(quantity: MotionQuantity, name: str, signs: SchoolSigns = USUAL) -> Iterator[Item]:
     """A side of a polygon of forces and its force, or a balancing moment and its sense."""
     make = with_segment if quantity.sort == "vector" else with_sense
-    yield from make(plain(name), symbol(name, signs=signs), quantity, name)
+    field = plain(name)
+    for strand, (prime, _) in STRANDS.items():
+        if name.startswith(f"R{prime}_"):
+            field = f"{plain(name.replace(prime, ''))}_{strand}"
+    yield from make(field, symbol(name, signs=signs), quantity, name)
 
 
 def travel_item(quantity: MotionQuantity, of: str) -> Item:

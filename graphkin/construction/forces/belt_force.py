@@ -16,7 +16,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure, put_in
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.forces.loads import force_amount, newtons, sub
+from graphkin.construction.forces.loads import STRANDS, force_amount, newtons, sub
 from graphkin.construction.forces.moments import (
     ForceByMoments,
     Moments,
@@ -28,8 +28,6 @@ from graphkin.drawing.symbol_markup import escape, of_wheel, symbol
 from graphkin.numbers.arithmetic import Point, Real, at, pick, sqrt
 from graphkin.scene.model import TENSIONS, Belt, Scene, Wheel
 
-STRANDS = {"left": ("′", 1), "right": ("″", -1)}
-"""The prime and the side of each strand, seen from its wheel towards the other one."""
 LETTERS = {"slack": "T_min", "pretension": "T_0", "ratio": "q"}
 """The symbol of what a scene states of a belt's tensions."""
 RULES = tuple(TENSIONS)
@@ -70,9 +68,13 @@ def strand_force(centre: Point, edge: Point, number: Real, *rest: Any) -> Point:
 
 
 def tension(more: Real, number: Real, rule: str) -> Real:
-    """The tension of a strand that carries ``more`` than the other."""
+    """The tension of a strand that carries ``more`` than the other.
+
+    A loose strand raises ValueError; in a batch it is NaN.
+    """
     if rule == "pretension":
-        return number + more / 2
+        found = number + more / 2
+        return found + 0 * sqrt(found)
     if rule == "slack":
         return number + pick(more > 0, more, 0 * more)
     return pick(more > 0, number * more, -more) / (number - 1)

@@ -18,7 +18,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
 from graphkin.construction.core.quantities import BALANCING_FORCE, BALANCING_MOMENT, PAIR_REACTION
 from graphkin.construction.core.vocabulary import along_bar
-from graphkin.construction.forces.belt_force import STRANDS, belt_strands
+from graphkin.construction.forces.belt_force import belt_strands
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import (
     along_line,
@@ -28,6 +28,7 @@ from graphkin.construction.forces.line_force import (
     pressure,
 )
 from graphkin.construction.forces.loads import (
+    STRANDS,
     LinkForce,
     PassedReaction,
     applied,
@@ -112,6 +113,9 @@ def is_drawn(scene: Scene, group: Group) -> bool:
             )
         case Higher():
             return coupled(scene, group) is not None
+        case Driven(link=link, pair=Contact() as contact):
+            loose = contact.track is None and contact.arm is None
+            return loose and contact.links[0] == link and contact.rolling.belt is None
         case Driven(pair=pair):
             return is_plain(scene, pair)
     return False
@@ -837,17 +841,54 @@ class ForcePlan:
         return moment
 
     def driven(self, group: Driven) -> int:
-        """The balancing force of a driven block along its guide, and the reaction of the guide."""
+        """The balancing force of a driven link along its guide or track, and the reaction there."""
         link, pair = group.link, group.pair
-        push, force, moments = self.along_and_across(link, pair, "slide")
+        if isinstance(pair, Contact):
+            push, moments = self.rolled(link, pair)
+        else:
+            push, force, moments = self.along_and_across(link, pair, "slide")
         self.drive(group.driver, link, push, turns=False)
         against = other_of(group.driver, link)
         if against != FRAME:
             name = f"F_{sub('b', link)},{against}"
             passed = LinkForce(name, "balance", self.back(push), moments.about, at=moments.letter)
             self.acting[against].append(passed)
-        self.settle(pair, link, force, moments)
+        if not isinstance(pair, Contact):
+            self.settle(pair, link, force, moments)
         return push
+
+    def rolled(self, link: str, contact: Contact) -> tuple[int, Moments]:
+        """A driven wheel on its track: the force along the track in the contact by moments.
+
+        The track's normal and the driver's force along it then close the polygon. The moments are
+        those of the loads about the wheel's centre, at which the driver pushes.
+        """
+        pen, centre = self.pen, contact.wheel.centre
+        moments, track = self.about(centre, link), pen.the("track", contact.links[0])
+        pitch = pitch_on(pen, moments.about, track)
+        whole, push = self.name(contact, link), "F_" + sub("b", link)
+        polygon, ends = self.new_polygon((link,), "roll"), (contact.letter, centre)
+        parts = (f"{whole}^n", f"{whole}^t") if moments.terms else ()
+        first = polygon.start
+        if parts:
+            across = tangential(pen, parts[1], link, ends, moments, pitch)
+            first = polygon.lay(parts[1], PART, across)
+        last = polygon.lay_all(self.acting[link])
+        ways = (
+            SideDirection(guide=track, block=link),
+            SideDirection(guide=track, block=link, along=True),
+        )
+        names, looks = (
+            (parts[0] if parts else whole, push),
+            (PART if parts else REACTION, "balance"),
+        )
+        corner = polygon.close(names, ways, looks).corner
+        force = polygon.reaction(whole, corner, first, whole=parts, drawn=bool(parts))
+        quantity = BALANCING_FORCE.target
+        given = polygon.reaction(push, last, corner, drawn=False, quantity=quantity)
+        applied(pen, LinkForce(push, "balance", given, moments.about, at=centre))
+        self.give(contact, link, force, pitch)
+        return given, moments
 
     # --- the lever -------------------------------------------------------------------------------
 
@@ -892,6 +933,8 @@ class ForcePlan:
             return None
         if isinstance(group, Crank):
             return crank_tip(pen.scene, group)
+        if isinstance(group.pair, Contact):
+            return group.pair.wheel.centre
         assert isinstance(group.pair, Sliding)
         return pen.scene.link(group.pair.block).points[0]
 

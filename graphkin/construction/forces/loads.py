@@ -95,19 +95,25 @@ def is_asked(scene: Scene, forces: Forces, target: Target) -> bool:
 def reaction_names(scene: Scene, asked: Iterable[str]) -> Iterator[str]:
     """The symbols of the reactions in some pins and in all guides of some blocks, in both senses.
 
-    A plan draws one of the two senses.
+    A plan draws one of the two senses. A belt has one reaction for each strand.
     """
     for name in asked:
         block = scene.links.get(name)
-        owners = [link.name for link in scene.every_link if name in link.points]
-        pairs = [*permutations(owners, 2)]
-        if block is not None:
-            others = [*(e.on for e in block.slides), *(e.on for e in block.rolls)]
-            others += [scene.cams[name].on] if name in scene.cams else []
-            pairs = [pair for other in others for pair in ((name, other), (other, name))]
-        yield from (f"R_{link_pair(*pair)}" for pair in pairs)
+        if block is None:
+            owners = [link.name for link in scene.every_link if name in link.points]
+            yield from (f"R_{link_pair(*pair)}" for pair in permutations(owners, 2))
+            continue
+        others = [*(e.on for e in block.slides), *(e.on for e in block.rolls if not e.belt)]
+        others += [scene.cams[name].on] if name in scene.cams else []
+        belts = [e.on for e in block.rolls if e.belt]
+        primes = [("", other) for other in others]
+        primes += [(prime, other) for other in belts for prime, _ in STRANDS.values()]
+        for prime, other in primes:
+            yield from (f"R{prime}_{link_pair(*e)}" for e in ((name, other), (other, name)))
 
 
+STRANDS = {"left": ("′", 1), "right": ("″", -1)}
+"""The prime and the side of each strand of a belt, seen from its wheel towards the other one."""
 LENGTH = 13.0
 """Length in mm of the arrows of forces on the mechanism, which show sense and direction alone."""
 MOST = 2.0

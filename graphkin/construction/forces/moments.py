@@ -493,9 +493,16 @@ def of_arm(pen: Pen, about: int, name: str, place: int, force: int, number: str)
     return MomentTerm(name, number, foot, force, None)
 
 
-def tangential(pen: Pen, name: str, link: str, ends: tuple[str, str], moments: Moments) -> int:
-    """The part of an outer reaction across a bar."""
-    outer = pen.the("position", ends[0])
+def tangential(
+    pen: Pen,
+    name: str,
+    link: str,
+    ends: tuple[str, str],
+    moments: Moments,
+    outer: int | None = None,
+) -> int:
+    """The part of an outer reaction across a bar; ``outer`` is the step of a contact point."""
+    outer = pen.the("position", ends[0]) if outer is None else outer
     with pen.on(Part.FORCE, Plane.NUMBERS):
         force = pen.draw(tangential_part, outer, moments.about, *moments.steps, extra=moments.extra)
     part = TangentialPart(
