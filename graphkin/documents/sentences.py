@@ -414,16 +414,20 @@ def forces_asked(drawing: Drawing) -> list[str]:
     words, forces = drawing.words, drawing.scene.forces
     assert forces is not None
     found: list[str] = []
+    links = drawing.scene.links
     keys = (
-        ("ask.reactions", "ask.reactions_many", False),
-        ("ask.guide_reactions", "ask.guide_reactions_many", True),
+        ("ask.reactions", "ask.reactions_many", [*set(forces.reactions).difference(links)]),
+        ("ask.guide_reactions", "ask.guide_reactions_many", [n for n in links if links[n].slides]),
+        ("ask.contact_reactions", "ask.contact_reactions_many", [*links]),
     )
-    for one, many, blocks in keys:
-        names = [e for e in forces.reactions if (e in drawing.scene.links) is blocks]
+    left = dict.fromkeys(forces.reactions)
+    for one, many, kind in keys:
+        names = [name for name in left if name in kind]
         if names:
-            symbols = (escape(n) if blocks else symbol(lettered(n)) for n in names)
+            symbols = (escape(n) if n in links else symbol(lettered(n)) for n in names)
             mentioned = words("list_mark").join(symbols)
             found.append(words(many if len(names) > 1 else one, list=mentioned))
+        left = {name: None for name in left if name not in names}
     if forces.balance:
         lever = isinstance(drawing, ForceDrawing) and drawing.extents.lever is not None
         found.append(words("ask.balance_lever" if lever else "ask.balance"))
