@@ -79,7 +79,7 @@ def import_scene(
     text = content(given)
     link, expression = LINK.match(given), EXPRESSION.match(given)
     current().meta[READING] = "the link" if link else "the expression" if expression else given
-    found = scene_text(imported(text, tracing))
+    found = scene_text(imported(text, tracing), "" if link or expression else given)
     if output is None:
         tell(found.text.splitlines())
     else:

@@ -962,11 +962,15 @@ def checked(drawing: Drawing) -> list[str]:
 
 def checked_lines(drawing: Drawing, width: float) -> list[str]:
     """The difference of the independent route, in as few lines of a width as hold it."""
-    said = checked(drawing)
-    lines = flowed(said, "; ", width, LETTERS)
+    return in_width(checked(drawing), width)
+
+
+def in_width(pieces: Sequence[str], width: float) -> list[str]:
+    """Pieces in lines of a width, divided within a piece only where one is longer."""
+    lines = flowed(pieces, "; ", width, LETTERS)
     if all(extent(line, LETTERS)[0] <= width for line in lines):
         return lines
-    return flowed(words_of("; ".join(said)), " ", width, LETTERS)
+    return flowed(words_of("; ".join(pieces)), " ", width, LETTERS)
 
 
 def construction_head(drawing: Drawing, x: float, y: float) -> Text:
@@ -977,19 +981,26 @@ def construction_head(drawing: Drawing, x: float, y: float) -> Text:
 def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]]:
     """The requests, links and plan scale of a task, next to the scheme.
 
-    Where lines do not fit, the links go to a continuation sheet, then the requests.
+    Where lines do not fit, they have no empty lines between them; then the links go to a
+    continuation sheet, then the requests.
     """
     words, paper = drawing.words, drawing.paper
-    room = int((paper.below[3] - y - 10.5) / LEADING) + 1
+    heading = flowed(words_of(words("page.asked")), " ", paper.scheme[0] - x - 3, 3.5)
+    first = y + 10.5 + LEADING * (len(heading) - 1)
+    room = int((paper.below[3] - first) / LEADING) + 1
     moved = set[Moved]()
-    lines = task_lines(drawing, moved, paper.scheme[0] - x - 8)
+    lines = parts = task_lines(drawing, moved, paper.scheme[0] - x - 8)
     for part in (Moved.MEMBERS, Moved.ASKED):
         if len(lines) > room:
+            lines = [line for line in parts if line]
+        if len(lines) > room:
             moved.add(part)
-            lines = task_lines(drawing, moved, paper.scheme[0] - x - 8)
-    marks: list[Mark] = [Text(x, y + 4.5, words("page.asked"), "caption", 3.5)]
+            lines = parts = task_lines(drawing, moved, paper.scheme[0] - x - 8)
+    marks: list[Mark] = [
+        Text(x, y + 4.5 + i * LEADING, line, "caption", 3.5) for i, line in enumerate(heading)
+    ]
     marks += [
-        Text(x + 5, y + 10.5 + i * LEADING, line, "caption", 2.5)
+        Text(x + 5, first + i * LEADING, line, "caption", 2.5)
         for i, line in enumerate(lines)
         if line
     ]
@@ -999,7 +1010,7 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     """The lines of a task in a width, an empty line between parts; moved parts are named."""
     elsewhere = drawing.words("page.moved")
-    lines = flowed([elsewhere] if Moved.ASKED in moved else asked_words(drawing), "; ", width, 2.5)
+    lines = in_width([elsewhere] if Moved.ASKED in moved else asked_words(drawing), width)
     links = members(drawing)
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)

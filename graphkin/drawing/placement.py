@@ -261,7 +261,7 @@ SIDE = 1.5  # cost of a place perpendicular to the preferred side; all costs are
 UNPLACED, OPTIONAL = 1000.0, 100.0  # fine of a label without a place, and of one that may stay so
 DEAR = 7.4  # what a label may pay before places with a leader are searched
 STRUCK = 20.0  # least cost of a place whose leader crosses a strong line
-WIDE = Level(108, 12)  # how widely a label with such a place searches
+WIDE = Level(192, 48)  # how widely a label with such a place searches
 BAD = 2.0  # what a label may pay above its best before places are exchanged
 CROWD, AROUND = 8, 20.0  # most labels around one without a place, within how many mm
 HOPELESS = 60  # number of labels without a place above which only near places are searched
@@ -354,6 +354,7 @@ def _widen(seats: Assignment) -> None:
     struck = dict.fromkeys((i for i in paying if not seats.is_given_up(i)), WIDE)
     if offers.widen(struck):
         seats.settle(i for i in seats.order() if i in struck)
+        seats.improve([i for i in struck if seats.paid[i] > STRUCK], LONG)
     before = [*seats.pick]
     seats.shift(seats.seeking())
     seats.improve(seats.seeking(), LONG)

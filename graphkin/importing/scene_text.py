@@ -6,7 +6,9 @@ import re
 from cmath import phase, rect
 from collections.abc import Iterator
 from contextlib import contextmanager
+from json import dumps
 from math import degrees, inf
+from pathlib import PurePath
 
 from msgspec import Struct
 
@@ -49,18 +51,31 @@ class SceneText(Struct, frozen=True):
     notes: tuple[Message, ...]
 
 
-def scene_text(found: Imported) -> SceneText:
+def scene_text(found: Imported, file: str = "") -> SceneText:
     """The scene of an imported mechanism; it names its notes in comments at its head.
+
+    Its title is the name of its ``file``, or of the program where there is no file.
 
     Raises a GraphkinError where no scene can be made of it, with the file's names.
     """
-    writer = SceneWriter(found)
+    writer = SceneWriter(found, title_of(file) or f"Mechanism from {found.program}")
     with names_of_file(writer):
         branches = nearest_closures(writer)
         mechanism = Mechanism(read_text(writer.text(branches), NAME))
     notes = (*writer.notes, *moved(writer, mechanism))
     head = [f"# from {found.program}", *(f"# {named_whole(note)}" for note in notes)]
     return SceneText(writer.text(branches, head), notes)
+
+
+LETTERED = 0x530
+"""Latin, Greek and Cyrillic letters are below; the fonts of sheets have them."""
+
+
+def title_of(file: str) -> str:
+    """The name of a file as a title; empty where sheets could not letter it."""
+    words = " ".join(PurePath(file).stem.replace("_", " ").split())
+    is_lettered = all(sign.isprintable() and ord(sign) < LETTERED for sign in words)
+    return f"{words[:1].upper()}{words[1:]}" if is_lettered else ""
 
 
 @contextmanager
@@ -87,8 +102,9 @@ def named_whole(note: Message) -> str:
 class SceneWriter:
     """The tables of a scene: points by the names of joints, links by numbers."""
 
-    def __init__(self, found: Imported) -> None:
+    def __init__(self, found: Imported, title: str) -> None:
         self.found = found
+        self.title = title
         self.notes = list(found.notes)
         self.guided = {guide.body for guide in found.guides}
         if len(self.guided) < len(found.guides):
@@ -214,7 +230,7 @@ class SceneWriter:
         lines = [
             "graphkin = 1",
             *(head or []),
-            f'title = "Mechanism from {self.found.program}"',
+            f"title = {dumps(self.title, ensure_ascii=False)}",
             f'units = {{ length = "{self.found.unit}", angle = "deg", speed = "rev/min" }}',
             *(["gravity = true"] if self.found.gravity else []),
             "",

@@ -278,7 +278,7 @@ class Brought(Struct, frozen=True):
 
 def brought(order: Brought, language: str) -> dict[str, Any]:
     """The text of the scene, the name of its file, and the notes. Raises GraphkinError."""
-    found = scene_text(imported(order.text(), order.tracing))
+    found = scene_text(imported(order.text(), order.tracing), order.name)
     stem = PurePath(order.name or "imported").stem
     return {
         "text": found.text,

@@ -390,3 +390,13 @@ def test_every_moment_on_a_link_is_on_the_mechanism():
     labels = [str(mark) for mark in shown if isinstance(mark, Text)]
     assert all(any(symbol in label for label in labels) for symbol in wanted)
     assert drawing.turnings("3")["M_3"] * drawing.turnings("3")["M_i3"] < 0
+
+
+def test_a_task_asks_for_the_forces_of_contacts_by_their_name():
+    """Teeth and cams touch; only blocks have guides."""
+    task = next(
+        part for part in hand_out(load("gears-forces"), "task", "en") if part.kind == "force"
+    )
+    said = " ".join(m.markup for m in task.pages[0].marks if isinstance(m, Text))
+    assert "the contact forces on links 2, 3" in said
+    assert "blocks" not in said

@@ -240,3 +240,15 @@ def test_the_scheme_of_a_task_is_beside_its_table(name, frame):
     left, _, right, low = paper.scheme
     table = paper.empty_tables
     assert left < right and (right <= table[0] or low <= table[1] or paper.is_leaf)
+
+
+@pytest.mark.parametrize("name", ["pump-forces", "shaper-forces", "engine-forces"])
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_requests_on_a_leaf_keep_off_the_scheme(language: str, name: str) -> None:
+    """A heading or a request wider than the room beside the scheme is divided."""
+    for part in hand_out(on("A4", name), "task", language)[:-1]:
+        paper = paper_of("A4", "ISO")
+        every = [m for m in part.pages[0].marks if isinstance(m, Text) and m.cls == "caption"]
+        said = [m for m in every if m.y > paper.foot and not m.name]
+        assert said
+        assert max(reach(mark)[2] for mark in said) < paper.scheme[0]

@@ -19,7 +19,7 @@ from graphkin.documents.program_files import pmks_file
 from graphkin.importing.formats import content, imported
 from graphkin.importing.record import DrawnGuide
 from graphkin.importing.scene_text import scene_text
-from graphkin.mechanism import Mechanism
+from graphkin.mechanism import Mechanism, load
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
@@ -679,3 +679,20 @@ def test_changed_masses_of_an_old_link_are_named(name):
     assert not any(words in note for note in imported(LINKS[name]).notes)
     heavier = LINKS[name].replace("l=ab,R,1,1,", "l=ab,R,2.5,1,")
     assert any(words in note for note in imported(heavier).notes)
+
+
+@pytest.mark.parametrize(
+    ("file", "title"),
+    [
+        ("jaw_crusher-2.linkage2", "Jaw crusher-2"),
+        ("механизм.linkage2", "Механизм"),
+        ('a"b.linkage2', 'A"b'),
+        ("机构.linkage2", "Mechanism from Linkage"),
+    ],
+)
+def test_a_scene_has_the_name_of_its_file_as_its_title(tmp_path, file: str, title: str) -> None:
+    """Sheets print it; a name that they cannot letter gives way to that of the program."""
+    given, made = tmp_path / file, tmp_path / "made.toml"
+    given.write_bytes((HERE / "crank.linkage2").read_bytes())
+    assert CliRunner().invoke(app, ["import", str(given), "-o", str(made)]).exit_code == 0
+    assert load(made).scene.title == title
