@@ -27,7 +27,7 @@ Field = tuple[int, int, bytes]
 """The number of a field, its type, and its bytes."""
 
 
-class Column(Struct, frozen=True):
+class TableColumn(Struct, frozen=True):
     """A column: its name, its physical type, its values as bytes, and their number."""
 
     name: str
@@ -62,18 +62,18 @@ def parquet(rows: Sequence[Sequence[Cell]]) -> bytes:
     return bytes(out) + footer + struct.pack("<i", len(footer)) + MAGIC
 
 
-def column(name: str, cells: Sequence[Cell]) -> Column:
+def column(name: str, cells: Sequence[Cell]) -> TableColumn:
     """A column of numbers where all its cells are numbers or empty, otherwise of texts."""
     filled = [cell for cell in cells if cell not in (None, "")]
     if filled and all(isinstance(cell, int | float) for cell in filled):
         numbers = [nan if cell in (None, "") else float(cell or 0) for cell in cells]
-        return Column(name, DOUBLE, struct.pack(f"<{len(numbers)}d", *numbers), len(cells))
+        return TableColumn(name, DOUBLE, struct.pack(f"<{len(numbers)}d", *numbers), len(cells))
     texts = [("" if cell is None else str(cell)).encode() for cell in cells]
     values = b"".join(struct.pack("<i", len(each)) + each for each in texts)
-    return Column(name, TEXT, values, len(cells))
+    return TableColumn(name, TEXT, values, len(cells))
 
 
-def page(own: Column) -> bytes:
+def page(own: TableColumn) -> bytes:
     """The head of the only page of a column."""
     size = number(len(own.values))
     levels = number(RUNS)
@@ -81,7 +81,7 @@ def page(own: Column) -> bytes:
     return record((1, *number(0)), (2, *size), (3, *size), (5, STRUCT, data))
 
 
-def chunk(own: Column, start: int, size: int) -> bytes:
+def chunk(own: TableColumn, start: int, size: int) -> bytes:
     """The metadata of a column whose page lies at a place in the file."""
     about = record(
         (1, *number(own.kind)),
@@ -96,7 +96,7 @@ def chunk(own: Column, start: int, size: int) -> bytes:
     return record((2, *long(start)), (3, STRUCT, about))
 
 
-def element(own: Column) -> bytes:
+def element(own: TableColumn) -> bytes:
     """A column in the schema: required, texts as UTF-8."""
     fields: list[Field] = [(1, *number(own.kind)), (3, *number(0)), (4, *text(own.name))]
     return record(*fields, *([(6, *number(0))] if own.kind == TEXT else []))

@@ -14,7 +14,7 @@ from graphkin.writers.parquet import parquet
 from tests.running import Run
 
 
-class Reader:
+class CompactReader:
     """Thrift's compact protocol, as far as a Parquet file uses it."""
 
     def __init__(self, data: bytes, at: int) -> None:
@@ -62,7 +62,7 @@ def read_back(data: bytes) -> dict[str, list[Any]]:
     """The columns of a file by name."""
     assert data[:4] == data[-4:] == b"PAR1"
     (size,) = struct.unpack("<i", data[-8:-4])
-    footer = Reader(data, len(data) - 8 - size).struct()
+    footer = CompactReader(data, len(data) - 8 - size).struct()
     root, *schema = footer[2]
     assert root[5] == len(schema)
     (group,) = footer[4]
@@ -75,7 +75,7 @@ def read_back(data: bytes) -> dict[str, list[Any]]:
         assert about[3] == [element[4]]
         assert about[1] == element[1]
         assert about[5] == footer[3]
-        page = Reader(data, about[9])
+        page = CompactReader(data, about[9])
         head = page.struct()
         assert head[1] == 0
         assert head[5][1] == footer[3]
