@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from graphkin.drawing.style import Ink
     from graphkin.mechanism import Mechanism
     from graphkin.motion.equal_positions import Start
+    from graphkin.text.tables import Cell
 
 
 @click.command()
@@ -158,11 +160,11 @@ def sheet(
 )
 @language_option
 @formats_option(
-    "csv,xlsx,svg,png,gif,html",
+    "csv,xlsx,parquet,svg,png,gif,html",
     "svg",
     "Kinds of file to write; the tables are always written as CSV. xlsx: the tables as one"
-    " workbook; needs the extra [class]. gif, html: mechanism and plans in motion, as a picture and"
-    " as a page.",
+    " workbook; needs the extra [class]. parquet: each table as an Apache Parquet file. gif, html:"
+    " mechanism and plans in motion, as a picture and as a page.",
 )
 @force_option
 def cycle(
@@ -199,7 +201,8 @@ def cycle(
       graphkin cycle offset-slider-crank -o cycles --positions 12 --positions-from dead --format csv
       graphkin cycle offset-slider-crank -o cycles --advantage --format csv
     """
-    kinds = option_words("--format", formats, ("csv", "xlsx", "svg", "png", "gif", "html"))
+    known = ("csv", "xlsx", "parquet", "svg", "png", "gif", "html")
+    kinds = option_words("--format", formats, known)
     from graphkin.cli.report.cycle_report import (
         agrees,
         cycle_lines,
@@ -239,10 +242,7 @@ def cycle(
     tables |= {"extremes": extremes_rows(found, reached)} if any(reached) else {}
     tables |= {"positions": cycle_rows(few)} if few is not None else {}
     files = {f"{stem}-{kind}.csv": csv_text(rows, "\n").encode() for kind, rows in tables.items()}
-    if "xlsx" in kinds:
-        from graphkin.writers.workbook import workbook
-
-        files[f"{stem}-cycle.xlsx"] = workbook(tables)
+    files |= table_files(stem, tables, kinds)
     with working() as step:
         if curves := [kind for kind in kinds if kind in ("svg", "png")]:
             from graphkin.motion.curves.curve_files import picture_files
@@ -257,6 +257,22 @@ def cycle(
     if not agrees(found):
         complain("the independent route does not agree with the construction")
         leave(FAILED)
+
+
+def table_files(
+    stem: str, tables: Mapping[str, Sequence[Sequence[Cell]]], kinds: Collection[str]
+) -> dict[str, bytes]:
+    """The tables of a motion as a workbook and as Parquet files, as far as they are asked for."""
+    files: dict[str, bytes] = {}
+    if "xlsx" in kinds:
+        from graphkin.writers.workbook import workbook
+
+        files[f"{stem}-cycle.xlsx"] = workbook(tables)
+    if "parquet" in kinds:
+        from graphkin.writers.parquet import parquet
+
+        files |= {f"{stem}-{kind}.parquet": parquet(rows) for kind, rows in tables.items()}
+    return files
 
 
 @click.command()

@@ -339,17 +339,16 @@ def numbers_of(found: PositionSet) -> list[str]:
 
 
 class ValueRow(Struct, frozen=True):
-    """A row of values below the positions, with its symbol and unit."""
+    """A row of values below the positions, with its symbol and unit; None where there is none."""
 
     head: str
-    values: list[str]
+    values: Sequence[float | None]
 
-    @classmethod
-    def of(cls, head: str, values: Sequence[float | None], words: Words) -> ValueRow:
-        """A row of values with as many decimals as give the largest four digits."""
-        largest = max((abs(each) for each in values if each is not None), default=0.0)
-        places = max(3 - floor(log10(largest)), 0) if largest else 0
-        return cls(head, ["–" if each is None else words.fixed(each, places) for each in values])
+    def written(self, words: Words, digits: int) -> list[str]:
+        """The values with as many decimals as give the largest some digits."""
+        largest = max((abs(each) for each in self.values if each is not None), default=0.0)
+        places = max(digits - 1 - floor(log10(largest)), 0) if largest else 0
+        return ["–" if each is None else words.fixed(each, places) for each in self.values]
 
 
 def travel_row(found: PositionSet) -> list[ValueRow]:
@@ -362,7 +361,7 @@ def travel_row(found: PositionSet) -> list[ValueRow]:
         start, tip = travel.line
         lines = (each.positions[tip] - each.positions[start] for each in some)
         ways = [(degrees(phase(line)) - travel.low.value + BELOW) % TURN - BELOW for line in lines]
-        return [ValueRow.of(f"{drawing.symbol(f'ψ_{travel.name}')} (°)", ways, drawing.words)]
+        return [ValueRow(f"{drawing.symbol(f'ψ_{travel.name}')} (°)", ways)]
     guides = [
         guide.coordinate
         for each in some
@@ -373,7 +372,7 @@ def travel_row(found: PositionSet) -> list[ValueRow]:
         return []
     ways = [drawing.length(float(each) - travel.low.value) for each in guides]
     head = f"{drawing.symbol(f's_{travel.name}')} ({drawing.scene.units['length']})"
-    return [ValueRow.of(head, ways, drawing.words)]
+    return [ValueRow(head, ways)]
 
 
 def plan_rows(found: PositionSet, kind: str) -> Iterator[ValueRow]:
@@ -386,7 +385,7 @@ def plan_rows(found: PositionSet, kind: str) -> Iterator[ValueRow]:
             values = [None if plan is None else value_in(plan, quantity, own) for plan in plans]
             sign = drawing.symbol(f"{quantity.letter}_{lettered(own)}")
             head = f"{sign} ({drawing.words.unit(quantity.caret_unit)})"
-            yield ValueRow.of(head, values, drawing.words)
+            yield ValueRow(head, values)
 
 
 def value_in(drawing: Drawing, quantity: MotionQuantity, of: str) -> float | None:

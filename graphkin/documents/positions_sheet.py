@@ -75,6 +75,7 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.drawing.symbols import PIN, across, distance, head, toward
 from graphkin.motion.follower_limits import Follower
 from graphkin.scene.model import FRAME
+from graphkin.text import Words
 from graphkin.text.errors import PageError
 
 AROUND, OVER = 22.0, 13.0
@@ -616,11 +617,8 @@ def places_table(
     width = (right - left - FIRST) / per
     whole = [(words("positions.number"), names), (head_of, values)]
     if count == 1 and own == ROW:
-        least = width - PAD
-        wide = (max(extent(each, 2.5)[0] for each in row.values) for row in more)
-        some_rows = [row for row, each in zip(more, wide, strict=True) if each <= least]
         free = int((room - gap) / ROW) - len(whole)
-        whole += [(row.head, row.values) for row in some_rows[:free]]
+        whole += [*fitting(more, words, width - PAD)][:free]
     small = width < widest or own < ROW
     for k in range(count):
         row = slice(k * per, (k + 1) * per)
@@ -643,6 +641,18 @@ def places_table(
     low = top + count * (len(whole) * own + gap) + 3.5
     for i, line in enumerate(lines):
         yield Text(left, low + 4.2 * i, line, "caption", 2.5, name="legend")
+
+
+def fitting(
+    rows: Sequence[ValueRow], words: Words, width: float
+) -> Iterator[tuple[str, list[str]]]:
+    """The rows of values that a column has room for, with four digits or with three."""
+    for row in rows:
+        for digits in (4, 3):
+            values = row.written(words, digits)
+            if max(extent(each, 2.5)[0] for each in values) <= width:
+                yield row.head, values
+                break
 
 
 def mark_on_cam(found: PositionSet) -> Iterator[bool]:

@@ -49,13 +49,11 @@ def equal_places(
     at = first + step * numbers
     at = at[(at >= low - ALIKE * step) & (at <= high + ALIKE * step)]
     if not at.size:
-        unit = cycle.sweep.unit
+        ends = {"low": low, "high": high, "unit": cycle.sweep.unit}
         raise SceneError.at(
             place,
             message("the first position lies far outside the range of the driver"),
-            message(
-                "a position from {low:.4g} to {high:.4g} {unit}", low=low, high=high, unit=unit
-            ),
+            message("a position from {low:.4g} to {high:.4g} {unit}", **ends),
         )
     return np.asarray(at, float)
 

@@ -60,6 +60,10 @@ STILL = 4e-15
 """Share of the largest size by which it may leave a level at the ends of that level."""
 PLACED = 1e-8
 """Share of the range within which a place is zero."""
+WITHIN = 1e-9
+"""Distance from the edge of a window, as a share of it, at which a value is one from inside."""
+JUMPS = 1e-4
+"""Share of the largest size by which only a jump changes a value in that distance."""
 MOST = 100.0
 """The largest size, in median sizes; beyond, a value is about to grow without bound."""
 RATE_OF: Mapping[str, str] = {
@@ -287,7 +291,7 @@ class Search:
 
     def all(self) -> Iterator[Extremes | None]:
         """The extremes of every measure, in their order; None for one without values."""
-        rows = self.values(self.at)
+        rows = self.one_sided(self.values(self.at))
         singular = np.isin(self.at, [e.at for e in (self.low, self.high) if e.kind == "dead"])
         for n, measure in enumerate(self.measures):
             if not all(target[0] in PLACES for target in measure.targets):
@@ -315,6 +319,18 @@ class Search:
                 all_along = Extreme(low, (Reached(self.low.at, self.high.at),))
                 both = [all_along, all_along]
             yield Extremes(self.measures[n], *both)
+
+    def one_sided(self, rows: Sequence[Reals]) -> list[Reals]:
+        """The rows with the values that jump at the edge of a window as they are inside it."""
+        found = [np.array(row) for row in rows]
+        for end, place, way in ((self.low, 0, 1), (self.high, -1, -1)):
+            if end.kind != "window" or self.closed:
+                continue
+            inside = self.values(np.array([end.at + way * WITHIN * self.span]))
+            for row, near in zip(found, inside, strict=True):
+                if abs(row[place] - near[0]) > JUMPS * np.abs(row[np.isfinite(row)]).max(initial=0):
+                    row[place] = near[0]
+        return found
 
     # --- where an extreme may lie -----------------------------------------------------------------
 

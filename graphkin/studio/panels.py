@@ -54,6 +54,7 @@ from graphkin.construction.core.solution import Solution, Verdict
 from graphkin.construction.result_tables import NUMBERS, result_tables, unread
 from graphkin.documents.centre_tables import breadth_of, place_of, with_blocks
 from graphkin.documents.detail import insets, with_detail
+from graphkin.documents.relations import of_travel
 from graphkin.documents.sentences import crossings_on
 from graphkin.documents.sheet import apart, left_board, right_board
 from graphkin.drawing.field import ABOVE, MARGIN, XY, Field, Rect
@@ -377,7 +378,7 @@ WHERE = {
 
 
 def results(drawings: Sequence[Drawing], solution: Solution) -> str:
-    """The results as HTML: notes, then vectors, angular values, sliding values and centres.
+    """The results as HTML: notes, then vectors, angular and sliding values, centres and travels.
 
     The notes say what is asked for but cannot be read off.
     """
@@ -385,6 +386,7 @@ def results(drawings: Sequence[Drawing], solution: Solution) -> str:
     said = from_template("studio/web/notes.html", notes=notes)
     found = [table for drawing in drawings for table in read_off(drawing, solution)]
     found += places(drawings[0].scene, solution, drawings[0].words)
+    found += asked_travels(drawings[0])
     return f"{said}{tables_html(found)}"
 
 
@@ -452,6 +454,17 @@ def places(scene: Scene, solution: Solution, words: Words) -> Iterator[CellTable
         rows.append(Row((symbol(name), *cells)))
     head = (words("table.symbol"), f"*x*, {unit}", f"*y*, {unit}")
     yield CellTable(head, rows, words("studio.places"))
+
+
+def asked_travels(drawing: Drawing) -> Iterator[CellTable]:
+    """The strokes, swings and time ratios that are asked for."""
+    words = drawing.words
+    found = of_travel(drawing)
+    spaces = {"°": ""}
+    rows = [Row((e.left, f"{e.result}{spaces.get(e.unit, ' ')}{e.unit}".rstrip())) for e in found]
+    if rows:
+        head = (words("table.symbol"), words("calculation.answers"))
+        yield CellTable(head, rows, words("calculation.travel"))
 
 
 def margins(drawings: Sequence[Drawing]) -> str:

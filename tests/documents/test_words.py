@@ -41,6 +41,7 @@ from graphkin.numbers.cam_motions import MOTIONS
 from graphkin.numbers.plane import Ratio
 from graphkin.reading.desk_app import SAID
 from graphkin.scene.read_scene import read_text
+from graphkin.studio.session import MOVING
 from graphkin.text import LANGUAGES, Words, flattened, untranslated, words
 from graphkin.text.errors import PageError
 from graphkin.web.your_turn import reasons
@@ -296,7 +297,7 @@ def test_every_sentence_is_used():
     waiting -= {f"screen.{kind}" for kind in WIDTHS}
     waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
     waiting -= {f"legend.{each.target}" for each in CENTRES}
-    waiting -= {f"sheet.{STROKE.kind}"}
+    waiting -= {f"sheet.{STROKE.kind}"} | {f"studio.page_{page}" for page in MOVING}
     assert waiting >= RARELY_SAID
     waiting -= RARELY_SAID
     for name in dict.fromkeys((*TELLING, "plates-ring", *RARE, *OTHERS, *CHOSEN)):

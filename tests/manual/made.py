@@ -8,7 +8,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 from html import escape
 from importlib import import_module
 from pathlib import Path
@@ -335,7 +335,18 @@ def scoped(svg: str, name: str) -> str:
     return f"{head}<style>{own}</style>".replace("<svg ", f'<svg class="{name}" ', 1) + rest
 
 
-PICTURES_OF_PAGES: Mapping[str, Callable[[], str]] = {"five-schools": five_schools}
+def course_sheet(view: str, kind: str) -> str:
+    """The first sheet of a kind that shows the whole motion of the shaper."""
+    (page, *_) = next(e for e in hand_out(load("shaper"), view, "en") if e.kind == kind).pages
+    return svg_of((0.0, 0.0, page.width, page.height), escape(page.title), page.marks, INK)
+
+
+PICTURES_OF_PAGES: Mapping[str, Callable[[], str]] = {
+    "five-schools": five_schools,
+    "shaper-positions": partial(course_sheet, "positions", "mechanism"),
+    "shaper-plans": partial(course_sheet, "positions", "velocity"),
+    "shaper-diagrams": partial(course_sheet, "diagrams", "differentiation"),
+}
 """The pictures of pages other than the gallery."""
 
 

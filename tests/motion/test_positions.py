@@ -51,7 +51,7 @@ def test_without_a_dead_point_none_can_be_the_start():
 
 
 def test_positions_far_outside_the_range_are_refused():
-    """A crank too long for its rod moves over some degrees, far from the scene's own angle."""
+    """A crank longer than its rod allows moves over some degrees, far from the scene's own."""
     moved = cycle(slider_crank(20, 5, 3, angle=136), steps=12)
     with pytest.raises(SceneError, match="outside the range of the driver"):
         equal_positions(moved, 12)

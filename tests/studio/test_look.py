@@ -239,3 +239,18 @@ def test_every_place_that_is_asked_has_a_row_with_its_coordinates():
     assert {*places_in(text)} == wanted
     bar = (FOLDER / "inflection-cardan.toml").read_text(encoding="utf-8")
     assert places_in(bar) == {"W2": ["0", "0"]}
+
+
+def test_asked_strokes_and_time_ratios_are_among_the_results():
+    """A link without a stroke is a mistake at its place in the text."""
+    text = Path(scene_files.find("slotted-lever")).read_text(encoding="utf-8")
+    text = text.replace("[ask]", "[ask]\nstrokes = [3, 5]\ntime_ratios = [5]")
+    found = seen(text)
+    assert not found["problems"]
+    told = {row[0]: row[1:] for row in rows(found["results"])}
+    assert told["ψ3"] == ["47.16°"]
+    assert told["H5"] == ["496.0 mm"]
+    assert told["K5"] == ["1.710"]
+    (wrong,) = seen(text.replace("strokes = [3, 5]", "strokes = [3, 1]"))["problems"]
+    assert "ask.strokes[1]" in str(wrong)
+    assert "link 1 does not move to and fro" in str(wrong)

@@ -182,7 +182,7 @@ def test_cams(lift, out, dwell, back, motion, speed, factors, printed):
     text = CAM.format(law=", ".join(law), speed=-speed)
     windows = ((starts[0], starts[1]), (starts[2], starts[3]))
     for (low, high), way, shown in zip(windows, (out, back), printed, strict=True):
-        moved = cycle(mechanism(text), steps=24, low=1e-6 - high, high=-low - 1e-6)
+        moved = cycle(mechanism(text), steps=24, low=-high, high=-low)
         ((*every,),) = all_extremes(moved)
         own = {each.measure.label: each.largest.value for each in every}
         rate = speed * RPM / radians(way)

@@ -441,7 +441,8 @@ class Variants(Struct, frozen=True, dict=True):
             moved = self.moved(change, some, begun)
             if moved is not None:
                 probe, shape = layout.by_field[field], (len(self.standards), TURNED)
-                rows = [np.broadcast_to(moved.get(n, self.values[n]), shape) for n in places]
+                every = {**self.values, **moved}
+                rows = [np.broadcast_to(every[n], shape) for n in places]
                 again[probe.step] = round_the_turn(probe.item.quantity, rows)
         return again
 

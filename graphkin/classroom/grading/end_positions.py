@@ -73,7 +73,7 @@ def travel_key(item: Item, travel: Travel, scales: Scales, pencil: Pencil) -> Tr
     slow, fast = travel.follower.strokes
     share = travel.value * (1 / slow + 1 / fast)
     crank = crank_of(travel.ends[0])
-    angle = hypot(pencil.line, degrees(pencil.point * mm / crank))
+    angle = hypot(pencil.degrees, degrees(pencil.point * mm / crank))
     pencil_error, ruler = share * sqrt(2) * angle, share * degrees(mm / crank)
     return TravelKey(travel.value, pencil_error, ruler, recurs)
 

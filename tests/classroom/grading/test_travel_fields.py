@@ -178,3 +178,19 @@ def test_what_has_no_stroke_is_refused(asked, place, words):
         standard(mechanism, asked_fields(mechanism).values(), Rubric())
     (problem,) = refused.value.problems
     assert (str(problem.place), words in str(problem)) == (place, True)
+
+
+def test_a_stroke_is_written_in_the_unit_of_the_results():
+    """A scene in inches asks for inches: a plain number is in inches, one with mm is not."""
+    name = "offset-slider-crank"
+    text = text_of(name, TRAVELS[name]).replace('length = "mm"', 'length = "in"')
+    mechanism = Mechanism(read_text(text, name, None, {}))
+    own = standard(mechanism, asked_fields(mechanism).values(), rubric_of(mechanism))
+    item = own.by_field["H_3"].item
+    assert item.unit == mechanism.scene.unit_of_results == "in"
+    assert read_answer("10", item).value == pytest.approx(0.254)
+    assert read_answer("100 mm", item).value == pytest.approx(0.1)
+    assert (
+        read_answer("ψ = 47,2°", standard_of("slotted-lever").by_field["swing_3"].item).value
+        == 47.2
+    )
