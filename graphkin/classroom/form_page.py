@@ -216,6 +216,7 @@ TURNING, ALONG = ("ccw", "cw"), ("forward", "backward")
 """The senses of a turning link and of a block as the file writes them, the positive one first."""
 SAID = (
     "answers.saved",
+    "answers.saved_drawing",
     "answers.empty",
     "answers.unread",
     "answers.no_number",

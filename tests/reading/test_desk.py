@@ -168,7 +168,7 @@ def test_like_cells_are_read_once_and_marked(a_class: Path, report: Path) -> Non
     found = marks(report)
     assert [found[who]["pending"] for who in ids()[3:5]] == ["", ""]
     assert found[ids()[4]]["v_C why"] == "right"
-    assert "your lecturer read this as" in feedback(report, ids()[4])
+    assert "the lecturer read this as" in feedback(report, ids()[4])
     assert str(written).strip() in feedback(report, ids()[4])
     assert the(desk(report), "cell")["state"] == "decided"
     assert "decisions: 2 decided, 0 still open" in graded(a_class, report)
@@ -220,7 +220,7 @@ def test_an_appeal_is_asked_answered_and_kept(a_class: Path, report: Path) -> No
     said = graded(a_class, report)
     assert '"0199" is no student of this class' in said
     assert '"v_Q" is no field' in said
-    assert "your request is being looked at: I read 5 for 6" in feedback(report, ids()[5])
+    assert "the request is being looked at: I read 5 for 6" in feedback(report, ids()[5])
     session = desk(report)
     item = the(session, "appeal")
     assert item["told"] == "I read 5 for 6"

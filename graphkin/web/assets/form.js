@@ -165,7 +165,8 @@ function save() {
   const bad = fields.filter(judge);
   const empty = fields.filter(field => !clean(field.value));
   const count = fields.length - empty.length;
-  status.textContent = say("saved", { file: name, count, all: fields.length });
+  const key = drawing?.value ? "saved_drawing" : "saved";
+  status.textContent = say(key, { file: name, count, all: fields.length });
   if (count && empty.length) list("empty", empty.slice(0, NAMED), empty.length > NAMED);
   if (bad.length) list("unread", bad, false);
 }

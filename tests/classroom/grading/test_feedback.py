@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from itertools import combinations
 
@@ -220,3 +221,12 @@ def test_one_point_is_not_called_one_points():
     said = words("en")
     assert said("feedback.pending", fields="v_C", pending="1").endswith("at v_C (points: 1)")
     assert "1 points" not in said("feedback.one_mistake", cost="1", cause="the scale was left out")
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_feedback_names_a_sense_as_the_form_asks_for_it(language):
+    """The words for counter-clockwise and clockwise are those of the sheet's own sentence."""
+    told = words(language)
+    asked = plain(told("form.senses")).lower()
+    for key in ("feedback.anticlockwise", "feedback.clockwise"):
+        assert {*plain(told(key)).lower().split()} <= {*re.findall(r"[\w-]+", asked)}
