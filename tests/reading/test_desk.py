@@ -434,11 +434,23 @@ def test_a_class_is_decided_with_single_keys(report: Path, chromium: Any) -> Non
             page.wait_for_selector("body[data-ready=yes]")
             assert barred(page) == []
             if scheme == "light":
+                buttons_stay(page)
                 decided_by_keys(page, report)
             assert not errors
         page.close()
     found.server.close()
     thread.join(5)
+
+
+def buttons_stay(page: Any) -> None:
+    """What the page itself decided is no news: a button that is being clicked stays in its place."""
+    press(page, "1")
+    page.evaluate("document.querySelector('#options button').dataset.mine = 'yes'")
+    for _ in range(2):  # at the second answer the first has been worked through
+        with page.expect_response(lambda answer: answer.url.endswith("/news")):
+            pass
+    assert page.locator("#options button[data-mine=yes]").count() == 1
+    press(page, "u")
 
 
 def decided_by_keys(page: Any, report: Path) -> None:
