@@ -188,9 +188,9 @@ def near_name(name: str, known: Iterable[str]) -> str:
     """The known name nearest to an unknown one; "" when none is near.
 
     A name is near if it differs only in case, number or leading zeros, begins alike, or needs
-    changes to at most a third of its letters. For a name of one or two letters, only one near name
-    may exist: it is one letter longer or shorter, or it is the only known name and differs in one
-    letter.
+    changes to at most a third of its letters, to the first one only if that is the only change. For
+    a name of one or two letters, only one near name may exist: it is one letter longer or shorter,
+    or it is the only known name and differs in one letter.
     """
     meant, known = name[:60].lower(), tuple(known)
     near: dict[str, tuple[int, int]] = {}
@@ -204,7 +204,8 @@ def near_name(name: str, known: Iterable[str]) -> str:
         sure = begun or numbered_otherwise or padded
         if sure or 3 * (long - short) <= long or long <= SHORT:
             changes = changes_between(meant, other)
-            if sure or 3 * changes <= long:
+            begins_alike = changes < 2 or meant[:1] == other[:1]
+            if sure or (3 * changes <= long and begins_alike):
                 near[candidate] = changes, abs(number_of(meant) - number_of(other))
             elif changes == 1 and (short < long or len(known) == 1):
                 single.append(candidate)

@@ -478,6 +478,8 @@ def test_a_file_that_is_not_there_is_held_against_the_scenes_beside_it(
         ("degree", ("deg", "rad"), "deg"),
         ("7", ("1", "2"), ""),
         ("lock", ("slides", "wheel"), ""),
+        ("weight", ("moderate", "serious", "slight"), ""),
+        ("lsight", ("moderate", "serious", "slight"), "slight"),
     ],
 )
 def test_a_name_is_near_another_by_a_third_of_its_letters_or_its_number(

@@ -250,7 +250,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     if mark.alone:
         return words("feedback.alone")
     if mark.status is Status.RIGHT and mark.source:
-        return words("feedback.right_by", source=graded.mark(mark.source).item.symbol)
+        return words("feedback.right_by", source=source_words(graded, mark))
     if mark.is_together:
         return words("feedback.right_together")
     if mark.status in PLAIN:
@@ -270,9 +270,16 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
     if mark.status is Status.FOLLOWS and not mark.source:
         parts.append(words("feedback.follows_drawn", share=percent(mark)))
     elif mark.status is Status.FOLLOWS:
-        source = graded.mark(mark.source)
-        parts.append(words("feedback.follows", source=source.item.symbol, share=percent(mark)))
+        source = source_words(graded, mark)
+        parts.append(words("feedback.follows", source=source, share=percent(mark)))
     return "; ".join(parts)
+
+
+def source_words(graded: Graded, mark: EarnedMark) -> str:
+    """The answer from which another follows; with its unit where both have one symbol."""
+    item = graded.mark(mark.source).item
+    alike = item.symbol == mark.item.symbol and item.unit
+    return f"{item.symbol} ({unit_markup(item.unit)})" if alike else item.symbol
 
 
 def caused_words(graded: Graded, mark: EarnedMark, words: Words) -> str:

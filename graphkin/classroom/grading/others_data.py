@@ -62,6 +62,8 @@ NUMBERS = 60
 """The most numbers of students, beside those of the class, whose data are tried."""
 NEAREST = 24
 """The most other variants that are compared closely with one sheet."""
+VERBATIM = 8
+"""The fewest numbers that are a copy where all are those of the student whose data were used."""
 AS_WELL = 1.0
 """The odds, as a logarithm, by which another cause may be likelier than the lab's own."""
 UNEXPLAINED, BESIDE_TWO = 0.2, 0.05
@@ -119,17 +121,32 @@ def with_others_data(
 ) -> list[Graded]:
     """The marks, where sheets that nothing else explains may be drawn from other data.
 
-    Nothing is explained so whose digits are another student's (``copied``): that is a copy.
+    Nothing is explained so whose digits are another student's: that is a copy. ``copied`` are those
+    for whom copying is likelier than chance.
     """
     found = list(graded)
     open_yet = [i for i, each in enumerate(graded) if is_open(each, copied)]
     if not open_yet:
         return found
     others = Others([*of_class(graded, expected), *of_numbers(book, graded)], book.form)
+    known = {each.taker.student.id: each for each in graded}
     for i in open_yet:
         with alone(graded[i].taker.student.id):
-            found[i] = by_others_data(book, graded[i], others)
+            again = by_others_data(book, graded[i], others)
+            owners = [known[who] for e in again.causes for who in e.whose if who in known]
+            if not any(is_verbatim(graded[i], owner) for owner in owners):
+                found[i] = again
     return found
+
+
+def is_verbatim(graded: Graded, other: Graded) -> bool:
+    """Whether all numbers of a student are those of another, many enough not to agree by chance."""
+    pairs = [
+        (mark.answer.value, theirs.answer.value)
+        for mark, theirs in zip(graded.marks, other.marks, strict=True)
+        if mark.answer.is_read and mark.item.what != "sense"
+    ]
+    return len(pairs) >= VERBATIM and all(mine == theirs for mine, theirs in pairs)
 
 
 def with_own_causes(

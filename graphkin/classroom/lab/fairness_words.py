@@ -11,7 +11,6 @@ from graphkin.classroom.lab.fairness import Fault
 from graphkin.classroom.lab.lab_model import (
     Fair,
     Lab,
-    LabRule,
     Range,
     Settings,
     ValueList,
@@ -50,7 +49,7 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     english = words("en")
     yield from labelled("unfair", lines_of(broken_table(outcome, english)))
     if lab.rule.is_drawn:
-        yield from labelled("again", [again_words(lab.rule, outcome.spoiled_share)])
+        yield from labelled("again", [again_words(outcome)])
     computed = [(name, fairness.computed(i)) for i, name in enumerate(outcome.names)]
     yield from labelled("compute", list(fields_by_whom(computed, who)))
     yield from labelled("spread", lines_of(spread_table(spreads_of(outcome), english)))
@@ -60,10 +59,14 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     yield from labelled("marks", list(mark_lines(outcome)))
 
 
-def again_words(rule: LabRule, unfair: float) -> str:
-    """A forecast of how many students keep unfair data after repeated draws."""
-    left = 100 * unfair**rule.tries
+def again_words(outcome: LabTrial) -> str:
+    """How many students keep unfair data after repeated draws: of a class, or by forecast."""
+    rule, kept = outcome.lab.rule, len({name for name, _ in outcome.by_keys})
+    left = 100 * outcome.spoiled_share**rule.tries
     tries = f"after {rule.tries} draws at most"
+    if kept:
+        count = len(outcome.compared)
+        return f"{tries}, {count - kept} of a class of {count} have fair data"
     if left < 0.1:
         return f"{tries}, nearly all students have fair data"
     some = f"{float(f'{left:.2g}'):g}"

@@ -17,8 +17,8 @@ from graphkin.text.errors import Problem, SceneError, message
 
 TRIED = 1000
 """The number of variants tried."""
-CLASS = 30
-"""The number of variants compared with one another."""
+CLASS = 60
+"""The number of students in the class whose variants are compared with one another."""
 PENCILLED = 300
 """The most fair variants on which the accuracy of a pencil is tried, where a lab limits it."""
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)

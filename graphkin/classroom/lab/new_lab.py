@@ -46,7 +46,7 @@ from graphkin.classroom.lab.lab_model import (
     ValueList,
     exact_text,
 )
-from graphkin.classroom.lab.lab_trial import LabTrial, tried
+from graphkin.classroom.lab.lab_trial import CLASS, LabTrial, tried
 from graphkin.classroom.lab.read_lab import LAB, SCENE, lab_of
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
@@ -159,8 +159,6 @@ def candidates(
 # --- proposals ------------------------------------------------------------------------------------
 
 
-CLASS = 60
-"""The number of students in the class on which a proposal is tried."""
 APART = 0.5
 """The largest share that another's right values may earn, where the lab states none."""
 COURSE = "mechanics 2026"

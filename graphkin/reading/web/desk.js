@@ -621,6 +621,12 @@ function turn(way) {
   if (every.length) go(every[(every.findIndex(isHere) + way + every.length) % every.length]);
 }
 
+// Whether a card is shown already as it is: made anew, its buttons would miss a click on them.
+function isShown(card) {
+  const own = each => JSON.stringify({ ...each, known: 0 });
+  return own(card) === own(held);
+}
+
 // What others decided meanwhile.
 async function news() {
   const found = await post("news", count);
@@ -629,8 +635,9 @@ async function news() {
   ({ sheets, items, count } = found);
   if (held) {
     const now = await get(`item/${encodeURIComponent(held.name)}`);
-    if (now && held?.name === now.name && !typing) card(now);
-    else queue();
+    if (now && isShown(now)) held = now;
+    else if (now && held?.name === now.name && !typing) card(now);
+    queue();
   } else if (!typing && sheets.length) {
     draw();
     list();

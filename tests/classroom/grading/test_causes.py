@@ -126,6 +126,30 @@ def test_whose_data_were_drawn_is_told_beside_reversed_senses():
     assert [each.students for each in result.wrong_variants] == [("s19", "s26")]
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_copy_of_anothers_numbers_is_no_mistake_in_the_data(turned):
+    """Every number is the other's, to the digit, and perhaps all senses are turned."""
+    graded, owner = copied_from(26, 19, turned=turned)
+    assert owner.share == 1
+    assert not graded.causes and graded.share < Fraction("0.2")
+
+
+def copied_from(source: int, own: int, *, turned: bool):
+    """A student who hands in another's answers, and the other."""
+    book, lab = book_of("offset-slider-crank"), "offset-slider-crank"
+    takers = [taker(n, f"s{n:02d}") for n in range(3, 27)]
+    book.prepare(takers)
+    paper = book.marker_of(taker(source)).standard.paper
+    sheet = (paper.mechanism, paper.velocities, paper.accelerations)
+    row = mistaken.handed_in(lab, hand.data(lab, source), sheet, np.random.default_rng(5))
+    other = {"+": "-", "-": "+"} if turned else {}
+    answers = {i.field: read_answer(row[i.field], i) for i in book.form}
+    copy = {i.field: read_answer(other.get(row[i.field], row[i.field]), i) for i in book.form}
+    given = {f"s{own:02d}": copy, f"s{source:02d}": answers}
+    found = {g.taker.student.id: g for g in graded_class(book, takers, given, as_it_is=True).graded}
+    return found[f"s{own:02d}"], found[f"s{source:02d}"]
+
+
 def test_a_crank_turned_the_other_way_is_named_beside_another_mistake():
     """All that shows it is the sense of one ω."""
     found = a_class("offset-slider-crank", [("diameter", "reversed")], 3, count=2)

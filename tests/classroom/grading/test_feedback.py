@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from itertools import combinations
 
@@ -220,3 +221,23 @@ def test_one_point_is_not_called_one_points():
     said = words("en")
     assert said("feedback.pending", fields="v_C", pending="1").endswith("at v_C (points: 1)")
     assert "1 points" not in said("feedback.one_mistake", cost="1", cause="the scale was left out")
+
+
+def test_a_value_follows_from_its_own_length_by_name():
+    """Both have one symbol: "follows from v_D" would send the student in a circle."""
+    marker = marker_of("pump", 7)
+    key = key_answers(marker.standard)
+    wrong = {name: 1.2 * key[name].value for name in ("v_D_mm", "v_D")}
+    graded = marker.mark(taker(), key | given(wrong))
+    told = {row.cells[0]: plain(row.why) for row in rows(graded, words("en"))}
+    (why,) = (each for each in told.values() if "follows rightly" in each)
+    assert "from the answer for vD (mm)" in why
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_feedback_names_a_sense_as_the_form_asks_for_it(language):
+    """The words for counter-clockwise and clockwise are those of the sheet's own sentence."""
+    told = words(language)
+    asked = plain(told("form.senses")).lower()
+    for key in ("feedback.anticlockwise", "feedback.clockwise"):
+        assert {*plain(told(key)).lower().split()} <= {*re.findall(r"[\w-]+", asked)}

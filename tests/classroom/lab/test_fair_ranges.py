@@ -19,7 +19,8 @@ from graphkin.classroom.lab.fair_ranges import (
     round_step,
     runs_of,
 )
-from graphkin.classroom.lab.lab_model import Range, ValueList
+from graphkin.classroom.lab.fairness_words import trial_lines
+from graphkin.classroom.lab.lab_model import LabRule, Range, ValueList
 from graphkin.classroom.lab.lab_trial import tried
 from graphkin.classroom.lab.new_lab import (
     as_toml,
@@ -162,6 +163,20 @@ def test_a_part_of_a_list_has_the_values_between():
             part = part_of(every, low, high)
             told = [part.value(k) for k in range(len(part))]
             assert told == [every.value(k) for k in range(low, high + 1)]
+
+
+def test_ranges_and_check_tell_the_same_of_a_class(tmp_path):
+    """Thirty data are too few to keep a class apart: both say of how many they do."""
+    pump = read_lab("pump")
+    limited = replace(pump, fair=replace(pump.fair, apart=0.5))
+    new = proposed_ranges(limited, fair_ranges(limited))
+    assert new is not None and new.kept < new.of
+    drawn = replace(limited, rule=LabRule(new.course, new.ranges))
+    outcome = tried(drawn)
+    unfair = {name for name, _ in outcome.by_keys}
+    assert (len(outcome.compared) - len(unfair), len(outcome.compared)) == (new.kept, new.of)
+    (again,) = (line for line in trial_lines(outcome) if line.startswith("again"))
+    assert f"{new.kept} of a class of {new.of} have fair data" in again
 
 
 def test_a_scene_without_ends_is_told(lab):
