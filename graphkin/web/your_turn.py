@@ -12,7 +12,13 @@ from graphkin.construction.centres.instant_centre import VelocityNormal
 from graphkin.construction.core.component import Component, LaidOff, TriangleComponent
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import Construction, PlanPole, construction, constructions
-from graphkin.construction.core.naming import letter_at, rate_symbol, sense, vector_of
+from graphkin.construction.core.naming import (
+    is_foot_drawn,
+    letter_at,
+    rate_symbol,
+    sense,
+    vector_of,
+)
 from graphkin.construction.core.palette import SIMILAR, Move, images_and_place
 from graphkin.construction.core.program import Part, Plane, Step, plan_vector
 from graphkin.construction.core.quantities import OMEGA
@@ -548,11 +554,15 @@ class MoveFinder:
         kind, drawing, vector = construction(step), self.drawing(number), ""
         if step.name:
             return drawing.symbol(step.name)
-        if isinstance(kind, LaidOff):
-            if number in drawing.feet and (letter := letter_at(drawing, number)):
-                if kind.is_short(drawing):
-                    return f"{drawing.symbol(letter)} + {kind.component.symbol(drawing)}"
+        if isinstance(kind, LaidOff | LaidOffByRate) and number in drawing.feet:
+            letter = letter_at(drawing, number)
+            if letter and isinstance(kind, LaidOff) and kind.is_short(drawing):
+                return f"{drawing.symbol(letter)} + {kind.component.symbol(drawing)}"
+            if letter and (
+                isinstance(kind, LaidOff) or is_foot_drawn(drawing, drawing.feet[number])
+            ):
                 return drawing.symbol(letter)
+        if isinstance(kind, LaidOff):
             vector = kind.component.symbol(drawing)
         elif isinstance(kind, LaidOffByRate):
             vector = kind.fields(drawing, step.role)["vector"]
@@ -722,8 +732,9 @@ class TurnOwner(Struct, frozen=True):
 
 
 def palette(turn: YourTurn, words: Words) -> list[tuple[str, list[str]]]:
-    """The actions that a construction needs, each with the words for its inputs."""
+    """The actions of a construction and of its known errors, with the words for their inputs."""
     used = {move.action for move in turn.moves.values()}
+    used |= {action for errors in turn.errors.values() for _, action, _ in errors}
     if turn.alike:
         used.add("similar")
     return [

@@ -338,6 +338,14 @@ def test_what_a_typed_line_lacks_is_named(kept: Opened, pump: Path):
         assert page.locator("#turn-sentence").inner_text() == ""
 
 
+def test_a_crossing_is_of_right_lines_before_ones_own(kept: Opened, pump: Path):
+    """Also where a line of one's own, on which a normal component lies, is drawn between them."""
+    page = begun(kept, pump, 29)
+    assert typed(page, "par a'AB").endswith("nBA lies on it.")
+    typed(page, "lay a'aBAn", "1", "perp nBA AB", "lay o'aBn", "1", "perp nB O2B")
+    assert typed(page, "x").startswith("b′: right.")
+
+
 def test_the_sheet_that_is_drawn_on_stays(kept: Opened, pump: Path):
     """A right move on the acceleration sheet keeps it, though the velocity sheet is not whole."""
     page = begun(kept, pump, 12)

@@ -254,6 +254,20 @@ def test_the_field_is_fitted_panned_and_zoomed_by_hand_and_by_keys(hand):
     assert share(hand) == pytest.approx(whole, rel=0.2)
 
 
+def test_a_scene_fills_the_field_when_it_is_first_built_on(hand, served):
+    """Opened with its pins, and not left as small as in the view of an empty field."""
+    hand.page.goto(served.address)
+    hand.page.wait_for_selector("body[data-settled=true] .drawing svg")
+    hand.page.click("#build")
+    hand.page.wait_for_selector("#canvas svg[viewBox] [data-point='A']")
+    hand.page.evaluate(PAINTED)
+    pins = hand.page.locator("#canvas [data-point]").all()
+    places = [hand.place(pin.get_attribute("data-point")) for pin in pins]
+    _, _, *field = map(float, hand.page.locator("#canvas svg").get_attribute("viewBox").split())
+    axes = [[at.real for at in places], [at.imag for at in places]]
+    assert max((max(axis) - min(axis)) / size for axis, size in zip(axes, field, strict=True)) > 0.3
+
+
 def typed_drag(hand, tool: str, start: complex, way: complex, keys: str) -> None:
     """Drag with a tool, and type in the middle of it."""
     hand.take(tool)

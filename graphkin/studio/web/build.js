@@ -64,8 +64,8 @@ export function building(open) {
 /** The size of a pixel in the scene. */
 const pixel = () => view.width / svg.clientWidth;
 
-/** Bring all points into view; a view that holds them stays, unless `anew` is set. */
-function fit(anew = false) {
+/** Bring all points into view; a view that holds them stays, unless `anew` is set or it is the first one. */
+function fit(anew = !view) {
   const ghosts = sketch.ghosts.map(ghost => ghost.at);
   const at = [...Object.values(sketch.points), ...ghosts, ...corners()];
   const [width, height] = [svg.clientWidth || 1, svg.clientHeight || 1];

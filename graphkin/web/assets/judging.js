@@ -45,14 +45,16 @@ export function verdicts_of({ moves, picks, places }, palette, order) {
     return ends.find(alike) ?? ends.find(step => left.includes(step)) ?? ends[0];
   }
 
-  /** A point that is still to be found and lies on a line or arc. */
-  function leads_to({ action, found, plane }, open) {
+  /** A point that is still to be found and lies on a line or arc: a goal, or another one that is due. */
+  function leads_to({ action, found, plane }, open, done) {
     if (!found.length || ["point", "vector"].includes(shape_of(action))) return undefined;
     const near = value => SAME * Math.max(size_of(plane), length_of(value));
     const is_point = step =>
       moves[step].plane === plane && shape_of(moves[step].action) === "point";
     const lies = ({ value }) => on_line(value, found[0]) < near(value);
-    return open.find(step => moves[step].goal && is_point(step) && lies(moves[step]));
+    const on_it = open.filter(step => is_point(step) && lies(moves[step]));
+    const is_due = step => moves[step].needs.every(need => done.has(need));
+    return on_it.find(step => moves[step].goal) ?? on_it.find(is_due);
   }
 
   /**
@@ -72,7 +74,7 @@ export function verdicts_of({ moves, picks, places }, palette, order) {
     if (before !== undefined) return { is: "already", step: before };
     const meant = drawn.other && giving(drawn, [drawn.other], open, left);
     if (meant !== undefined) return { is: "other", step: meant };
-    const point = leads_to(drawn, open);
+    const point = leads_to(drawn, open, done);
     return point === undefined ? { is: "wrong" } : { is: "leads", step: point };
   }
 

@@ -108,8 +108,8 @@ function written_length(text, form) {
 /** The lines or arcs drawn last of which no point is found yet. */
 function open_pair() {
   const drawn = [
-    ...turn.log.map(({ step }) => String(step)),
     ...Object.keys(picks).filter(key => key.startsWith("own")),
+    ...turn.log.map(({ step }) => String(step)), // before lines of one's own
   ].filter(key => picks[key] && is_curve(key));
   const cut_already = turn.lines
     .filter(([action]) => action === "cut")
