@@ -22,6 +22,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.kept_marks import KEPT_MARKS, read_kept_marks
 from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.reading.desk_marks import MarkDesk
 from graphkin.reading.desk_queue import KINDS
 from graphkin.reading.point_reading import VERDICTS, PointReading
@@ -39,7 +40,7 @@ from graphkin.studio.server import JSON, answer, answering, new_application
 from graphkin.studio.session import PageRequestError
 from graphkin.text import Words, as_text
 from graphkin.text.errors import PageError, Problem, message
-from graphkin.writers.templates import from_template
+from graphkin.writers.templates import from_template, marked_up
 
 
 class DrawingDesk(Struct, dict=True):
@@ -106,6 +107,7 @@ class DrawingDesk(Struct, dict=True):
         verdicts = (f"{self.words(f'desk.{each.verdict}')} ({each.by})" for each in every)
         return {
             **msgspec.to_builtins(point, enc_hook=as_text),
+            "symbol": marked_up(symbol(point.name, signs=self.words.signs)),
             "note": decision.note if decision else "",
             "decided": decision is not None and not decision.rivals,
             "rivals": ", ".join(verdicts) if len(every) > 1 else "",

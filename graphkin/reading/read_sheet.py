@@ -162,7 +162,8 @@ def known_code(grey: Any, takers: Mapping[str, Taker]) -> tuple[str, Any]:
     if not ours:
         raise Unreadable(
             "no code is found: the square left of the title block must be seen whole; "
-            "halves of a sheet are named NAME-left and NAME-right"
+            "halves of a sheet are named NAME-left and NAME-right; "
+            "sheets of positions and diagrams have no code, and are not read"
         )
     (each,) = ours
     return each.text, each.corners

@@ -198,9 +198,10 @@ class PrintedLines(Struct, frozen=True):
 
 
 class Registration(Struct, frozen=True):
-    """The map of a sheet; the share of its lines found, and their residual in mm (95th percentile).
+    """The map of a sheet, and the share of its lines found.
 
-    ``crossed``: the crosses in its fields were found; older prints have none.
+    ``residual`` is the 95th percentile of the offsets of frame and border, in mm.
+    ``crossed`` says whether the crosses in its fields were found; older prints have none.
     """
 
     map: PaperMap
@@ -665,11 +666,13 @@ def start(width: int, height: int, square: Any, corners: Any, paper: SheetPaper)
 
 def rippled(found: Registration, last: MeasuredLines, smooth: Any, page: Page) -> Registration:
     """The registration with ripples measured by the lines, and by the crosses if found."""
-    known, over = last.found, found.map
-    lines = last.lines.some(known)
-    across = Offsets(lines.places, lines.normals, last.off[known], np.full(known.sum(), ACROSS))
+    over = found.map
     crosses, share = crosses_off(smooth, over, np.array(crosses_of(page)).reshape(-1, 2))
     there = share >= LEAST_CROSSES
+    # crosses measure the fields better than lines of tables, which letters stand close to
+    known = last.found & last.lines.shared if there else last.found
+    lines = last.lines.some(known)
+    across = Offsets(lines.places, lines.normals, last.off[known], np.full(known.sum(), ACROSS))
     ripple = ripple_of(across, crosses if there else crosses.some(slice(0)), over.paper)
     rippled_map = PaperMap(over.width, over.height, over.parameters, ripple, over.paper)
     return replace(found, map=rippled_map, crossed=there)
@@ -681,7 +684,7 @@ def judged(
     """A map with its quality, and a reason for refusal where lines are missing or off."""
     seen, found = last.seen, last.found
     share = float(found.sum() / max(seen.sum(), 1))
-    off = abs(last.off[found])
+    off = abs(last.off[found & lines.shared])  # letters stand close to the lines of tables
     residual = float(np.percentile(off, 95)) if len(off) else float("inf")
     own = seen & ~lines.shared
     own_share = float((found & own).sum() / max(own.sum(), 1))

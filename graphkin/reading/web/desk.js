@@ -130,11 +130,8 @@ function list() {
     const off = each.at
       ? Math.hypot(each.at[0] - each.own[0], each.at[1] - each.own[1]).toFixed(1)
       : "–";
-    for (const text of [each.name, said[each.verdict] + (each.decided ? " ✓" : ""), off]) {
-      const cell = document.createElement("td");
-      cell.textContent = text;
-      row.append(cell);
-    }
+    const verdict = said[each.verdict] + (each.decided ? " ✓" : "");
+    row.append(marked("td", each.symbol), element("td", verdict), element("td", off));
     row.addEventListener("click", () => hold(each.step));
     return row;
   });
