@@ -44,6 +44,8 @@ SLOT = 1.75
 """Half the width of a slot in mm."""
 ROUND = 10
 """Chords of a slot's round end."""
+ROUNDED = 1e-6
+"""Strokes of hatching by which a length may be short, but for rounding."""
 UPRIGHT = (1.0, 0.0)
 """The direction to the right on the page."""
 WELD = 2.4
@@ -84,7 +86,7 @@ def hatched(start: XY, end: XY, *, spacing: float = 2.2, depth: float = HATCH) -
     """A line of the frame with hatching on its right-hand side, from start to end (y down)."""
     length, way = toward(start, end)
     yield LineMark(*start, *end, "guide")
-    for i in takewhile(lambda i: i + 1 <= length / spacing, count()):
+    for i in takewhile(lambda i: i + 1 <= length / spacing + ROUNDED, count()):
         foot = across(start, way, (i + 0.8) * spacing, 0)
         yield LineMark(*foot, *across(foot, way, -depth, depth), "ground")
 

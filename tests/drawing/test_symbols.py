@@ -313,6 +313,15 @@ def test_a_relative_angle_is_drawn_from_the_axis_of_the_link_it_is_relative_to()
 # --- labels --------------------------------------------------------------------------------------
 
 
+def test_rounding_takes_no_stroke_from_a_whole_number_of_them():
+    """A page that moves counts the strokes of its own numbers, and must find as many as paper."""
+    for k in range(90):
+        start, way = complex(*divmod(k * k, 17)) / 7, rect(1, k)
+        end = start + 10 * 2.2 * way
+        assert len([*hatched((start.real, start.imag), (end.real, end.imag))]) == 1 + 10
+
+
+
 @pytest.mark.parametrize("angle", [0, 50, 200])
 @pytest.mark.parametrize(("length", "strokes"), [(2.1, 0), (2.3, 1), (10.9, 4), (11.1, 5)])
 def test_a_line_of_the_frame_is_hatched_every_2_2_mm_on_its_right_hand_side(angle, length, strokes):
