@@ -400,7 +400,7 @@ def overlapping(touch: Touch) -> int:
     if other is not None:
         inside = mine.wheel.inside or other.wheel.inside
         bend = abs(bend - 1 / other.radius) if inside else bend + 1 / other.radius
-    half = 2 * sqrt(mine.module / max(bend, 1 / (1000 * mine.radius)))
+    half: float = 2 * sqrt(mine.module / max(bend, 1 / (1000 * mine.radius)))
     return min(max(FEW, ceil(half / (pi * mine.module) + 0.5)), MANY)
 
 
