@@ -74,10 +74,7 @@ def unknowns_of(loops: Equations, pose: Pose) -> Reals:
 
 
 class PlaceMotion(NamedTuple):
-    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,).
-
-    The same structure holds the bounds of their errors.
-    """
+    """Position (m), velocity (m/s) and acceleration (m/s²) of a point, each of shape (N,)."""
 
     place: Complexes
     velocity: Complexes
@@ -203,6 +200,14 @@ Flags = np.ndarray[Any, np.dtype[np.bool_]]
 Indices = np.ndarray[Any, np.dtype[np.intp]]
 
 
+class PlaceBound(NamedTuple):
+    """Error bounds of a position (m), a velocity (m/s), an acceleration (m/s²): (N, …)."""
+
+    place: Reals
+    velocity: Reals
+    acceleration: Reals
+
+
 class Vectors(Struct, frozen=True, eq=False):
     """Magnitudes of the vectors in rows of chains: ``every`` (N, R, 1 + U).
 
@@ -270,10 +275,10 @@ class Rounding(Struct, frozen=True, eq=False):
 
     motion: Motion
     angles: Reals
-    origin: PlaceMotion
+    origin: PlaceBound
     omega: Reals
     epsilon: Reals
-    points: PlaceMotion
+    points: PlaceBound
     slides: Reals
     regular: Flags
 
@@ -281,22 +286,22 @@ class Rounding(Struct, frozen=True, eq=False):
     def loops(self) -> Equations:
         return self.motion.loops
 
-    def point(self, name: str) -> PlaceMotion:
+    def point(self, name: str) -> PlaceBound:
         """The bounds of a point; ``A@3`` is the point of link 3 under A."""
         point, carrier = ends_of(name)
         p = self.motion.names[point]
         if carrier:
             return self.carried(carrier, self.motion.points.place[:, p], self.points.place[:, p])
-        return PlaceMotion(*(row[:, p] for row in self.points))
+        return PlaceBound(*(row[:, p] for row in self.points))
 
-    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceMotion:
+    def carried(self, link: str, place: Complexes, error: Reals | float = 0.0) -> PlaceBound:
         """The bounds of the point of a link at a given place, which has an error of its own."""
         i = self.motion.index[link]
         start, velocity, acceleration = (row[:, i] for row in self.origin)
         arm, off = abs(place - self.motion.origin.place[:, i]), start + error
         omega, epsilon = abs(self.motion.omega[:, i]), abs(self.motion.epsilon[:, i])
         turn, twist = self.omega[:, i], self.epsilon[:, i]
-        return PlaceMotion(
+        return PlaceBound(
             np.asarray(error),
             velocity + off * omega + (arm + off) * turn,
             acceleration
@@ -436,15 +441,15 @@ def rounding(
     rows, off, slower, later = found.position.rows, found.off, found.slower, found.later
     places = found.position.places
     which, turnings = loops.turning_of_link, rows.count
-    every = PlaceMotion(found.place, found.velocity, found.acceleration)
+    every = PlaceBound(found.place, found.velocity, found.acceleration)
     slid = off[:, turnings:] + 2 * places[:, rows.turned_by[turnings:]]
     return Rounding(
         motion=motion,
         angles=off[:, :turnings],
-        origin=PlaceMotion(*(row[:, :links] for row in every)),
+        origin=PlaceBound(*(row[:, :links] for row in every)),
         omega=slower[:, which],
         epsilon=later[:, which],
-        points=PlaceMotion(*(row[:, points:] for row in every)),
+        points=PlaceBound(*(row[:, points:] for row in every)),
         slides=np.stack([slid, slower[:, turnings:], later[:, turnings:]]),
         regular=np.asarray(found.position.regular.all(axis=1)),
     )
