@@ -321,7 +321,6 @@ def test_rounding_takes_no_stroke_from_a_whole_number_of_them():
         assert len([*hatched((start.real, start.imag), (end.real, end.imag))]) == 1 + 10
 
 
-
 @pytest.mark.parametrize("angle", [0, 50, 200])
 @pytest.mark.parametrize(("length", "strokes"), [(2.1, 0), (2.3, 1), (10.9, 4), (11.1, 5)])
 def test_a_line_of_the_frame_is_hatched_every_2_2_mm_on_its_right_hand_side(angle, length, strokes):
