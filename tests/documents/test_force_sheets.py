@@ -151,6 +151,12 @@ def test_the_task_names_each_pair_by_its_kind(name, said):
         assert any(words_said in each for each in asked), asked
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_task_says_which_link_pushes_which(language):
+    said = " ".join(plain(mark.markup) for mark in texts(sheet_of("four-bar", "task", language)[0]))
+    assert "Rik" in said
+
+
 def test_a_task_lists_no_arms():
     assert not printed_arms("four-bar", "task")
 
