@@ -68,7 +68,10 @@ function power({ power: plain, raised }) {
 }
 
 function plainUnit(text) {
-  const latin = text.replace(/[А-Яа-я]+\.?/g, part => told.russian[part.replace(".", "").toLowerCase()] || part);
+  const latin = text.replace(
+    /[А-Яа-я]+\.?/g,
+    part => told.russian[part.replace(".", "").toLowerCase()] || part,
+  );
   const plain = [...latin.replace(/[\s()[\]^*·]/g, "")]
     .map(sign => told.raised[sign] || sign)
     .join("");
