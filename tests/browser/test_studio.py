@@ -464,6 +464,7 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     page.check("#motion-kind [value=positions]")
     moving.locator("svg [data-name='path B']").first.wait_for()
     page.click("#sheets")
+    page.locator("#saving[open]").wait_for()
     assert page.input_value("#view") == "positions"
     page.click("#saving .close")
     page.click("#move")
