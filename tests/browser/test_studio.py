@@ -462,8 +462,9 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     assert moving.locator("#count").inner_text().startswith("Step 1 of ")
     assert not page.is_visible("#motion-driver")
     page.check("#motion-kind [value=positions]")
-    moving.locator("svg [data-name='path A']").first.wait_for()
+    moving.locator("svg [data-name='path B']").first.wait_for()
     page.click("#sheets")
+    page.locator("#saving[open]").wait_for()
     assert page.input_value("#view") == "positions"
     page.click("#saving .close")
     page.click("#move")
