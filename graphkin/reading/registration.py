@@ -200,7 +200,8 @@ class PrintedLines(Struct, frozen=True):
 class Registration(Struct, frozen=True):
     """The map of a sheet, and the share of its lines found.
 
-    ``residual`` is the 95th percentile of the offsets of frame and border, in mm. ``crossed``: the crosses in its fields were found; older prints have none.
+    ``residual`` is the 95th percentile of the offsets of frame and border, in mm. ``crossed``: the
+    crosses in its fields were found; older prints have none.
     """
 
     map: PaperMap
