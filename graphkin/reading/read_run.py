@@ -29,7 +29,7 @@ from graphkin.writers.commit import held, put_in_place, settle
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 15
+METHOD = 16
 """Version of the method.
 
 Increase it when the same photograph would be read differently, so that older readings are redone.

@@ -40,7 +40,7 @@ FADED = 0.2
 """The darkness from which a ring counts as drawn where lines are crowded and fade each other."""
 ASTRAY = 0.3
 """How far from its point, in mm, the middle of a ring may be."""
-TURNED, PLAIN, LIKELY = 0.65, 0.63, 0.6
+TURNED, PLAIN, LIKELY = 0.65, 0.45, 0.65
 """The least share of a head at the tail of a turned vector; the most at the tail of any other.
 
 LIKELY is the least share of a head at a marked point whose vector begins where other heads are.
@@ -226,7 +226,8 @@ def vector_end(
     likely = back.max() >= TURNED if alike or shared else steady(back).max() >= HEADED
     at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
-    doubled = (at_tail and not turned) or ((along_line or shared) and elsewhere and head is None)
+    rivalled = ((along_line or shared) and elsewhere) or (here < OWN and there.max() >= HEADED)
+    doubled = bool((at_tail and not turned) or (rivalled and head is None))
     only = here >= LIKELY and here > max(float(steady(there).max()), unsure) + LEAD
     past = (along - long >= PASSED[0]) & (along - long <= PASSED[1])
     alone = marked and steady(np.where(past, share, -1.0)).max() < LIKELY
@@ -239,8 +240,9 @@ def vector_end(
     if stops:
         head = None
     ended |= stops and plain
-    sure = marked or (not alike and here >= CERTAIN)
-    certain = sure and here >= OWN and there[along > long].max() < OWN
+    certain = (marked or (not alike and here >= CERTAIN)) and (
+        here >= OWN and there[along > long].max() < OWN
+    )
     unbroken = drawn(ink, tip, way, UNBROKEN, pale) >= RUNS_ON
     runs_on = not (shared or certain) and beyond >= RUNS_ON and unbroken
     return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)

@@ -203,3 +203,10 @@ def heads_of(tip: complex, long: float) -> Strokes:
 def test_a_head_just_beyond_the_point_is_not_its_own() -> None:
     """The construction line hides the stroke, and a ring marks the point that was passed."""
     assert not read([*vector(TAIL, TIP + 3.1 * WAY), *LINE, *RING], along=True).is_there
+
+
+def test_half_a_head_at_the_tail_of_a_vector_without_one_is_asked_about() -> None:
+    """A printed pole hides the other half; a ring alone says that the point is there."""
+    half = [(TAIL, TAIL + 1.6 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]
+    assert read([*LINE, *RING], along=True).is_there
+    assert read([*LINE, *RING, *half], along=True).open
