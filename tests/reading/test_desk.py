@@ -444,7 +444,7 @@ def test_a_class_is_decided_with_single_keys(report: Path, chromium: Any) -> Non
 
 
 def buttons_stay(page: Any) -> None:
-    """A decision of this page is no news: a button that is being clicked stays in its place."""
+    """What the page itself decided is no news: a button being clicked stays in its place."""
     press(page, "1")
     page.evaluate("document.querySelector('#options button').dataset.mine = 'yes'")
     for _ in range(2):  # at the second answer the first has been worked through

@@ -62,6 +62,9 @@ NUMBERS = 60
 """The most numbers of students, beside those of the class, whose data are tried."""
 NEAREST = 24
 """The most other variants that are compared closely with one sheet."""
+SURELY = 6.0
+"""The least odds, as a logarithm, at which other data are named: a sheet that is turned by a degree
+fits the data of a neighbour nearly as well, and this says more of a student than a slip does."""
 VERBATIM = 8
 """The fewest numbers that are a copy where all are those of the student whose data were used."""
 AS_WELL = 1.0
@@ -276,7 +279,7 @@ def by_others_data(book: Markers, graded: Graded, others: Others) -> Graded:
         single = None if best is None else best[1]
         near = others.nearest(own, given, NUMBERS)
         best = with_second_cause(book, own, given, missed, near, single) or best
-    if best is None:
+    if best is None or best[1].odds < SURELY:
         return graded
     data, why = best
     if graded.causes and graded.causes[0].odds > why.odds - LIKELY:

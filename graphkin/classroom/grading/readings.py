@@ -55,6 +55,9 @@ POWER = -1.0
 """How rare a power of ten of a prefix is, as a logarithm; any other is twice as rare."""
 OFTEN_OWN = 3.0
 """How often scales of one's own are chosen for the plans, beside any other cause."""
+TEN, COARSE_TEN = 0.12, 0.3
+"""How near a power of ten an answer is that is off by it, as a logarithm; and where that is within
+the error of the drawing."""
 PREFIXES = (2, 3)
 """The powers of ten between metres, centimetres and millimetres."""
 ODD_PAIR = 0.3
@@ -492,7 +495,8 @@ def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
         with np.errstate(all="ignore"):
             powers = np.log10(given / sizes)
             near = np.round(powers)
-            fits = alike & (abs(powers - near) < 0.12) & (abs(near) >= 1) & (abs(near) <= 4)
+            apart = np.where(abs(given / 10.0**near - sizes) < view.errors, COARSE_TEN, TEN)
+            fits = alike & (abs(powers - near) < apart) & (abs(near) >= 1) & (abs(near) <= 4)
         if whole:
             written = sized & ~np.isnan(view.answers)
             most = 2 * (written & view.whole).sum(axis=1) > written.sum(axis=1)

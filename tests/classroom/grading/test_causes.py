@@ -126,6 +126,23 @@ def test_whose_data_were_drawn_is_told_beside_reversed_senses():
     assert [each.students for each in result.wrong_variants] == [("s19", "s26")]
 
 
+TURNED = """
+v_D_mm=86 v_D=8.5 a_D_mm=68 a_D=410 omega_2=13 omega_2_sense=+ omega_3=31 omega_3_sense=+
+omega_4=29 omega_4_sense=- epsilon_2=930 epsilon_2_sense=+ epsilon_3=620 epsilon_3_sense=-
+epsilon_4=1800 epsilon_4_sense=+ I_3_x_mm=-15 I_3_y_mm=-27 J_3_x_mm=-75 J_3_y_mm=-10
+J_4_x_mm=39 J_4_y_mm=-37
+"""
+"""A sloppy drawing of number 17's pump, turned by a degree and read to whole millimetres."""
+
+
+def test_a_sheet_turned_by_a_degree_is_not_drawn_from_a_neighbours_data():
+    """The crank of number 16 stands two degrees away."""
+    book, who, row = book_of("pump"), taker(17), dict(each.split("=") for each in TURNED.split())
+    answers = {item.field: read_answer(row[item.field], item) for item in book.form}
+    (graded,) = graded_class(book, [who], {who.student.id: answers}, as_it_is=True).graded
+    assert not graded.causes
+
+
 @pytest.mark.parametrize("turned", [False, True])
 def test_a_copy_of_anothers_numbers_is_no_mistake_in_the_data(turned):
     """Every number is the other's, to the digit, and perhaps all senses are turned."""
