@@ -237,9 +237,11 @@ def whys_of(
         for thing in board.own.values()
         if thing.plane == plane and isinstance(thing.value, Line)
     ]
+    named = set[int]()
     for step, line, said in wrong_lines(sheet.drawing, found):
         is_wrong = step == number or (step in own and not is_same(line, found[step], mm))
-        if is_wrong and any(is_same(each, line, mm) for each in drawn):
+        if step not in named and is_wrong and any(is_same(each, line, mm) for each in drawn):
+            named.add(step)  # of two names for one wrong line the first holds
             yield said
 
 
@@ -344,7 +346,7 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
 def remark_on(each: JudgedSheet, point: PointReading, words: Words) -> str:
     """The markup of a remark on a point, with what is wrong in its construction."""
     whys = each.whys.get(point.step, ())
-    return ". ".join([escape(sentence(point, words)), *dict.fromkeys(whys)])
+    return " ".join([escape(sentence(point, words)) + "." * bool(whys), *dict.fromkeys(whys)])
 
 
 LOOKS = {GREEN: "right", RED: "wrong", YELLOW: "wrong"}

@@ -877,8 +877,8 @@ def written_pick(turn: YourTurn, key: str, pick: Pick) -> dict[str, object]:
     return found
 
 
-DIGITS = 13
-"""The digits of values on a page, whose script compares them to 7."""
+DIGITS = 15
+"""The digits of values on a page: all that a double surely holds."""
 
 
 def written(value: Any) -> object:

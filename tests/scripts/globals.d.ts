@@ -1,9 +1,5 @@
 // What the scripts of the pages find there: globals of other scripts, and elements of their templates.
 
-/** The mechanism of a page that moves: what moving.js makes of its data; missing where nothing moves. */
-declare const graphkinMotion: ReturnType<
-  typeof import("../../graphkin/web/assets/moving.js").moving
->;
 /** The sections of the manual that its search looks through. */
 declare const SECTIONS: { title: string; page: string; words: string; to: string }[];
 
@@ -73,6 +69,21 @@ interface Element extends HTMLOrSVGElement {
 }
 
 // --- what the scripts of a page pass to each other ------------------------------------------------
+
+/** A datum that a page lets its reader change: its input, its range, and the result that it shows. */
+interface Figure {
+  key: string;
+  name: string;
+  place: number;
+  start: number;
+  low: number;
+  high: number;
+  step: number;
+  unit: string;
+  shows: number;
+  datum: number;
+  moves: number;
+}
 
 /** A point or vector [x, y]: of a drawing upwards in metres, of a field downwards in millimetres. */
 type Place = number[];

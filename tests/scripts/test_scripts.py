@@ -19,6 +19,7 @@ CHECKS = {
     "format": ("prettier", "--check", *("graphkin/**/*.js", "tests/scripts/*.{js,ts}")),
     "lint": ("eslint", "--max-warnings=0", "graphkin", "tests/scripts"),
     "types": ("tsc", "-p", "tests/scripts/tsconfig.json"),
+    "strict types": ("tsc", "-p", "tests/scripts/tsconfig.strict.json"),
     "types of a task page": ("tsc", "-p", "tests/scripts/tsconfig.board.json"),
 }
 """The checks by Node's tools."""

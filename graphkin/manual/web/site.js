@@ -3,13 +3,30 @@
 
 const MOST = 30; // hits shown
 const root = document.body.dataset.root;
+/** @typedef {typeof SECTIONS[number]} Section */
+
+/**
+ * An element with a text.
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} tag
+ */
 const element = (tag, text = "") =>
   Object.assign(document.createElement(tag), { textContent: text });
-const byId = id => document.getElementById(id);
+
+/** An element that is there; the template has it. */
+function there(/** @type {PageElement | null} */ found) {
+  if (!found) throw new TypeError("the page lacks an element");
+  return found;
+}
+const byId = (/** @type {string} */ id) => there(document.getElementById(id));
 
 // --- search --------------------------------------------------------------------------------------
 
-/** How well a section fits the words; 0 where one of them is missing. */
+/**
+ * How well a section fits the words; 0 where one of them is missing.
+ * @param {Section} section
+ * @param {string[]} words
+ */
 function fit(section, words) {
   const title = section.title.toLowerCase();
   const page = section.page.toLowerCase();
@@ -27,7 +44,11 @@ function fit(section, words) {
   return sum;
 }
 
-/** The words around the first word that is sought, with all of them marked. */
+/**
+ * The words around the first word that is sought, with all of them marked.
+ * @param {Section} section
+ * @param {string[]} words
+ */
 function excerpt(section, words) {
   const text = section.words;
   const at = Math.max(text.toLowerCase().indexOf(words[0]), 0);
@@ -75,7 +96,10 @@ byId("search").addEventListener("submit", event => {
 });
 document.addEventListener("keydown", event => {
   if (event.key === "Escape") byId("hits").hidden = true;
-  if (event.key === "/" && !/^(INPUT|TEXTAREA|SELECT)$/.test(document.activeElement.tagName)) {
+  if (
+    event.key === "/" &&
+    !/^(INPUT|TEXTAREA|SELECT)$/.test(document.activeElement?.tagName ?? "")
+  ) {
     event.preventDefault();
     byId("sought").focus();
   }
@@ -83,7 +107,7 @@ document.addEventListener("keydown", event => {
 
 // --- contents ------------------------------------------------------------------------------------
 
-const contents = document.querySelector("nav details");
+const contents = there(document.querySelector("nav details"));
 const small = matchMedia("(max-width: 52rem)");
 const fold = () => (contents.open = !small.matches);
 small.addEventListener("change", fold);
@@ -91,7 +115,10 @@ fold();
 
 // --- gallery -------------------------------------------------------------------------------------
 
-/** Put the cards of each kind into a grid, and a box for each effect into the filter. */
+/**
+ * Put the cards of each kind into a grid, and a box for each effect into the filter.
+ * @param {PageElement} filter
+ */
 function gallery(filter) {
   for (const kind of document.querySelectorAll("main > h2")) {
     const grid = element("div");
@@ -100,13 +127,15 @@ function gallery(filter) {
     if (grid.children.length) kind.after(grid);
   }
   const cards = [...document.querySelectorAll(".card")];
-  const shows = new Map(cards.map(card => [card, card.dataset.shows.split(", ").filter(Boolean)]));
+  const shows = new Map(
+    cards.map(card => [card, (card.dataset.shows ?? "").split(", ").filter(Boolean)]),
+  );
   const effects = [...new Set([...shows.values()].flat())].sort();
   for (const effect of effects) {
     const label = element("label");
     const box = Object.assign(element("input"), { type: "checkbox", value: effect });
     label.append(box, ` ${effect}`);
-    filter.querySelector("fieldset").append(label);
+    there(filter.querySelector("fieldset")).append(label);
   }
   const update = () => {
     const wanted = [...filter.querySelectorAll(":checked")].map(box => box.value);
@@ -114,17 +143,17 @@ function gallery(filter) {
     for (const grid of document.querySelectorAll(".cards")) {
       const empty = !grid.querySelector(":scope > :not([hidden])");
       grid.hidden = empty;
-      grid.previousElementSibling.toggleAttribute("hidden", empty);
+      grid.previousElementSibling?.toggleAttribute("hidden", empty);
     }
     byId("left").textContent =
       `${cards.filter(card => !card.hidden).length} of ${cards.length} scenes`;
   };
   filter.addEventListener("change", update);
-  document.querySelector("main > h2").before(filter);
+  there(document.querySelector("main > h2")).before(filter);
   filter.hidden = false;
   update();
   document.querySelector(`[id="${decodeURIComponent(location.hash.slice(1))}"]`)?.scrollIntoView();
 }
 
-const filter = byId("filter");
+const filter = document.getElementById("filter");
 if (filter) gallery(filter);

@@ -4,9 +4,11 @@ const NOTCH = 1.25; // zoom of a key
 const STRIDE = 0.1; // parts of the width by which an arrow key pans
 const WHEEL = 1.0015; // zoom for a dot of the wheel
 
+/** @typedef {{ x: number, y: number, width: number }} View */
+
 /**
  * A view zoomed by a factor; a place of the scene stays where it is.
- * @param {{ x: number, y: number, width: number }} view
+ * @param {View} view
  * @param {number} factor
  * @param {number[]} place
  */
@@ -16,22 +18,38 @@ export const zoomed = ({ x, y, width }, factor, [u, v]) => ({
   width: width * factor,
 });
 
-/** A view after a turn of the wheel over a place. */
+/**
+ * A view after a turn of the wheel over a place.
+ * @param {View} view
+ * @param {number} delta
+ * @param {number[]} at
+ */
 export const wheeled = (view, delta, at) => zoomed(view, WHEEL ** delta, at);
 
-/** A view moved so that a place held by the pointer follows it. */
+/**
+ * A view moved so that a place held by the pointer follows it.
+ * @param {View} view
+ * @param {number[]} held
+ * @param {number[]} at
+ */
 export const panned = (view, held, at) => ({
   ...view,
   x: view.x + held[0] - at[0],
   y: view.y - held[1] + at[1],
 });
 
-/** A view after a key, for a field of some height in parts of its width; undefined for other keys. */
+/**
+ * A view after a key; undefined for other keys.
+ * @param {View} view
+ * @param {string} key
+ * @param {number} steep the height of the field in parts of its width
+ */
 export function keyed(view, key, steep) {
   const { x, y, width } = view;
   const middle = [x + width / 2, -(y + (width * steep) / 2)];
   const step = width * STRIDE;
-  return {
+  /** @type {Record<string, () => View>} */
+  const next = {
     "+": () => zoomed(view, 1 / NOTCH, middle),
     "=": () => zoomed(view, 1 / NOTCH, middle),
     "-": () => zoomed(view, NOTCH, middle),
@@ -39,5 +57,6 @@ export function keyed(view, key, steep) {
     ArrowRight: () => ({ ...view, x: x + step }),
     ArrowUp: () => ({ ...view, y: y - step }),
     ArrowDown: () => ({ ...view, y: y + step }),
-  }[key]?.();
+  };
+  return next[key]?.();
 }

@@ -15,18 +15,26 @@ export function construction_of(data, run, close) {
     closes = false;
 
   // The figures that can be changed; `led` says whether one differs from the drawn value.
+  /** @type {Figure[]} */
   const figures = data.figures ?? [];
   let led = false;
   for (const { place, start } of figures) x[place] = start;
 
-  /** Change a figure. */
+  /**
+   * Change a figure.
+   * @param {number} k
+   * @param {number} value
+   */
   function figure(k, value) {
     x[figures[k].place] = value;
     led = figures.some(({ place, start }) => x[place] !== start);
     reckoned = NaN;
   }
 
-  /** Bring the construction to a position of the driver; whether it closes there. */
+  /**
+   * Bring the construction to a position of the driver; whether it closes there.
+   * @param {number} at
+   */
   function reckon(at) {
     if (at !== reckoned) {
       reckoned = at;
@@ -34,7 +42,7 @@ export function construction_of(data, run, close) {
       count();
       const closed = close(x, led);
       run(x, y);
-      closes = closed && data.closed.every(i => Number.isFinite(y[i]));
+      closes = closed && data.closed.every((/** @type {number} */ i) => Number.isFinite(y[i]));
     }
     return closes;
   }

@@ -2,7 +2,10 @@
 
 let mark = ".";
 
-/** Write numbers with a decimal mark. */
+/**
+ * Write numbers with a decimal mark.
+ * @param {string} sign
+ */
 export function write_numbers_with(sign) {
   mark = sign;
 }
@@ -28,6 +31,6 @@ export function significant(number, digits = 4) {
     power = Number(exponent);
   if (power >= -4 && power < 6)
     return written(Number(number.toExponential(digits - 1)), Math.max(digits - 1 - power, 0));
-  const signs = [...String(power)].map(sign => (sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[sign]));
+  const signs = [...String(power)].map(sign => (sign === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(sign)]));
   return `${mantissa.replace("-", "−").replace(".", mark)}·10${signs.join("")}`;
 }
