@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.accuracy.pencil.pencil import Pencil
+from graphkin.accuracy.pencil import Pencil
 from graphkin.construction.board import board_given, replayed
 from graphkin.mechanism import load
 from graphkin.reading.board_drawing import NOWHERE, JudgedSheet, judged
