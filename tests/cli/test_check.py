@@ -369,3 +369,45 @@ def test_the_number_of_a_closure_is_told_in_ways(run: Run) -> None:
     checked = run("check", path)
     assert checked.exit_code == 0
     assert "branches   L0 = closure 1 is L0 = forward, s0 = forward\n" in checked.stdout
+
+
+@pytest.fixture
+def offset_slider_crank(tmp_path: Path) -> Callable[[str], Path]:
+    """A slider-crank with r = 60, l = 200 and e = 20 mm that asks for something more."""
+
+    def written(asked: str) -> Path:
+        path = tmp_path / "offset.toml"
+        path.write_text(
+            "graphkin = 1\ntitle = 'Offset'\n"
+            "units = { length = 'mm', angle = 'deg', speed = 'rev/min' }\n"
+            "frame.O = [0, 0]\n[links]\n1 = { O-A = 60 }\n2 = { A-B = 200 }\n"
+            "3 = { B = [0, 0], slides = { on = 0, through = [0, 20], angle = 0 } }\n"
+            "[[drivers]]\nturn = 1\nangle = 40\nspeed = 120\n"
+            f"[branches]\n3 = 'forward'\n[ask]\n{asked}\n",
+            encoding="utf-8",
+        )
+        return path
+
+    return written
+
+
+def test_an_asked_stroke_and_time_ratio_are_reported(
+    run: Run, offset_slider_crank: Callable[[str], Path]
+) -> None:
+    """H by Pythagoras in both dead positions; K by the angle between their cranks."""
+    low, high = math.sqrt(140**2 - 20**2), math.sqrt(260**2 - 20**2)
+    angle = math.degrees(math.asin(20 / 140) - math.asin(20 / 260))
+    ratio = (180 + angle) / (180 - angle)
+    checked = run("check", offset_slider_crank("strokes = [3]\ntime_ratios = [3]"))
+    assert checked.exit_code == 0
+    assert f"stroke of link 3: {high - low:.6g} mm" in checked.stdout
+    assert f"time ratio of link 3: {ratio:.5g}" in checked.stdout
+
+
+def test_a_stroke_of_a_link_that_turns_fully_is_a_mistake(
+    run: Run, offset_slider_crank: Callable[[str], Path]
+) -> None:
+    checked = run("check", offset_slider_crank("strokes = [3, 1]\ntime_ratios = [1]"))
+    assert checked.exit_code == 2
+    assert "ask.strokes[1]: link 1" in checked.stderr
+    assert "ask.time_ratios[0]: link 1" in checked.stderr

@@ -400,6 +400,7 @@ class Checking:
             self.doubts += [flat_words(scene, trace)] if is_flat(trace) else []
             yield from labelled("witness", [self.witness(trace)])
             yield from labelled("forces", self.forces())
+            yield from labelled("travel", self.travel())
             self.scale_factors()
         except GraphkinError as error:
             self.problems += error.problems
@@ -415,6 +416,23 @@ class Checking:
         words = force_verdict_words(witness_of_forces(found[1]))
         self.doubts += [] if found[1].agrees else [words]
         return [words]
+
+    def travel(self) -> list[str]:
+        """The strokes, swings and time ratios that the scene asks for."""
+        ask = self.mechanism.scene.ask
+        if not (ask.strokes or ask.time_ratios):
+            return []
+        from graphkin.cli.report.cycle_report import length_words
+        from graphkin.construction.core.quantities import BY_TARGET
+        from graphkin.motion.sweep import sweep_of
+        from graphkin.motion.travel import travels
+
+        sweep, lines = sweep_of(self.mechanism.scene), list[str]()
+        for (quantity, name), found in travels(self.mechanism).items():
+            unit = BY_TARGET[quantity].unit
+            size = length_words(sweep, found.value) if unit == "m" else f"{found.value:.5g}{unit}"
+            lines.append(f"{quantity} of link {name}: {size}")
+        return lines
 
     def closing(self) -> Iterator[str]:
         """Closures of the dyads, and the driver's angles at which the mechanism closes."""
