@@ -15,7 +15,7 @@ from graphkin.mechanism import load
 from graphkin.scene import scene_files
 from graphkin.studio.server import Served
 from tests.browser.opening import LONG, barred, heard, watched
-from tests.studio.pump import PUMP
+from tests.studio.pump import BAR, PUMP
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}}
 PHONE = {"viewport": {"width": 390, "height": 844}}
@@ -98,7 +98,7 @@ def test_a_mistake_is_marked_at_its_place_and_gone_when_it_is_mended(studio):
     write(page, "A-B = 40", "A-B = forty")
     assert page.inner_text("#count") == "1 mistake"
     assert page.locator("#drawings").bounding_box()["y"] == top  # nothing jumps while one writes
-    assert page.locator("#scene-part .gutter .wrong").all_inner_texts() == ["24"]
+    assert page.locator("#scene-part .gutter .wrong").all_inner_texts() == [str(BAR)]
     assert page.inner_text("#scene-part .under mark") == "forty"
     assert page.is_visible("#old")
     english = page.inner_text("#problems")
@@ -308,7 +308,7 @@ def test_it_can_be_used_by_keys_alone(studio, place):
     tab_to("#text")
     page.keyboard.press("Control+Home")
     line = "document.getElementById('text').value.slice(0, text.selectionStart).split('\\n').length"
-    while page.evaluate(line) < 24:
+    while page.evaluate(line) < BAR:
         page.keyboard.press("ArrowDown")
     page.keyboard.press("End")
     answered(page, lambda: page.keyboard.type(",5"))

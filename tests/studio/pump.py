@@ -18,6 +18,9 @@ from graphkin.studio.session import PageRequest, Session
 
 PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 
+BAR = PUMP[: PUMP.index("A-B = 40")].count("\n") + 1
+"""The line of the plate's bar AB."""
+
 LONG = 600
 """Seconds after which a studio that has not ended never will, on however slow a machine."""
 
