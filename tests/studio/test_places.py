@@ -19,9 +19,9 @@ from graphkin.text.errors import GraphkinError, Problem, SceneError, Sought
 from tests.chosen import CHOSEN, FOLDER
 from tests.scene.conftest import DATA
 from tests.scene.test_problems import CASES, PLANETS, SAID, SEVERAL
+from tests.studio.pump import BAR, PUMP
 
 PLANET = (DATA / "planet.toml").read_text(encoding="utf-8")
-PUMP = Path(scene_files.find("pump")).read_text(encoding="utf-8")
 SCENES = [
     *(FOLDER / f"{name}.toml" for name in CHOSEN),
     *(Path(scene_files.find(name)) for name in scene_files.names()),
