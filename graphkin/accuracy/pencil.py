@@ -163,7 +163,7 @@ class Paper(Struct, frozen=True):
     def millimetre(self, plane: Plane) -> float:
         """The amount that a millimetre of paper represents in a plane."""
         match plane:
-            case Plane.VELOCITIES:
+            case Plane.VELOCITIES | Plane.LEVER:  # the lever is the velocity plan, turned
                 return self.velocities / 1000
             case Plane.ACCELERATIONS:
                 return self.accelerations / 1000
