@@ -42,7 +42,7 @@ SHARE = log(1 / 60)
 """How frequent each cause is, as a logarithm."""
 LIKELY = 3.0
 """The least odds, as a logarithm, at which a cause is named."""
-FAINT, AS_ONE = 1.0, 6.0
+FAINT, AS_ONE = 1.0, 8.0
 """The same where answers fit a cause as one drawing with at least the second odds."""
 SENSES = -1.0
 """The same where nothing but senses is wrong, all of which the cause must reverse."""
