@@ -34,7 +34,7 @@ CHECKED = opening("verified").partition(" vector")[0]
 CONSTRUCTION = opening("construction").partition(",")[0]
 PARTS = (CONSTRUCTION, MECHANISM, CHECKED)
 """How lines begin that end the data of a continuation sheet."""
-ENDS = (*PARTS, DATA, opening("flattest"), opening("goes_on"))
+ENDS = (*PARTS, DATA, *map(opening, ("flattest", "goes_on", "goes_below")))
 """How lines begin that end a sentence."""
 
 

@@ -241,8 +241,6 @@ def test_a_colon_stands_apart_in_french_and_close_in_english():
         spoken = words(language)
         documents = drawn_sheets(drawings_from(TEXTS["chain of 6"], language), "key")
         marks = [mark for each in documents for page in each.pages for mark in page.marks]
-        told = [mark.markup for mark in marks if isinstance(mark, Text)]
-        assert any(each.startswith(f"{spoken('page.data')}{colon}") for each in told)
         (moved, *_) = (
             mark.markup for mark in marks if isinstance(mark, Text) and mark.name == "moved"
         )
@@ -253,7 +251,7 @@ def test_a_wheel_of_the_frame_with_inner_teeth_is_an_internal_gear():
     assert words("en")("page.ring_teeth", k="0", centre="O").startswith("internal gear")
 
 
-@pytest.mark.parametrize("name", ["pump-forces", "shaper-forces", "plank-rollers"])
+@pytest.mark.parametrize("name", ["shaper-forces", "plank-rollers"])
 def test_tables_make_room_for_a_construction_that_goes_on_below_them(name):
     """The tables beside a long construction are lower where that saves a sheet of a few lines."""
     for part in hand_out(load(name), "key", "en")[:-1]:
