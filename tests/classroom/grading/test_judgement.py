@@ -61,7 +61,8 @@ def test_what_a_misunderstanding_moves_far_is_right_for_no_one_in_a_thousand(nam
     """By more than twice what is allowed at most, in the same drawing without errors: those of the
     hand may bring a value back by chance."""
     rng, tried, right = np.random.default_rng(4), 0, []
-    for each in takers_of(name, 120):
+    takers = takers_of(name, COUNT)
+    for each in takers:
         for slip in SLIPS:
             marker = book_of(name).marker(each.settings)
             try:
@@ -77,8 +78,8 @@ def test_what_a_misunderstanding_moves_far_is_right_for_no_one_in_a_thousand(nam
                     tried += 1
                     if graded.mark(field).status is Status.RIGHT:
                         right.append((each.settings, slip, field))
-    assert tried > 2000
-    assert len(right) < tried / 1000, right
+    assert tried > 16 * len(takers)
+    assert len(right) <= max(1, tried / 1000), right
 
 
 @pytest.mark.parametrize("name", DRAW)
