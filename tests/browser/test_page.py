@@ -137,8 +137,7 @@ def test_the_focus_stays_where_a_step_takes_its_element_away(opened: Opened, pag
 
 VISIBLE = """name => [...document.querySelectorAll(`#sheet-0 [data-name='${name}']`)]
   .some(mark => mark.checkVisibility({ visibilityProperty: true }))"""
-ROUND = """() => [...document.querySelectorAll('#sheet-0 circle.pin')]
-  .map(pin => pin.getAttribute('cx'))"""
+
 
 
 def test_the_page_begins_with_the_whole_mechanism_and_the_task(kept: Opened, pages: Path):
@@ -151,22 +150,6 @@ def test_the_page_begins_with_the_whole_mechanism_and_the_task(kept: Opened, pag
     page.keyboard.press("ArrowRight")
     assert not page.locator("#brief").is_visible()
     assert [page.evaluate(VISIBLE, name) for name in "ABCD"] == [True, False, False, False]
-
-
-def test_the_mechanism_moves_once_as_a_ghost(opened: Opened, pages: Path):
-    page = opened(pages / "pump.html", "#step=5", stopped=True, **MOVING)
-    drawn = page.evaluate(ROUND)
-    for moves in (True, False):
-        page.keyboard.press("0")
-        page.clock.run_for(600)
-        assert (page.evaluate(ROUND) != drawn) == moves
-        page.keyboard.press("ArrowRight")
-        assert page.evaluate(ROUND) == drawn
-    page.emulate_media(reduced_motion="reduce")
-    page.reload()
-    page.keyboard.press("0")
-    page.clock.run_for(600)
-    assert page.evaluate(ROUND) == drawn
 
 
 def test_a_result_is_hidden_until_the_step_that_finds_it(kept: Opened, pages: Path):

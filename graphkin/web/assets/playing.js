@@ -1,5 +1,4 @@
 // Playing the steps.
-import { SWEEP } from "./beginning.js";
 import { byId, last, motion, play, state } from "./page.js";
 import { show } from "./stepping.js";
 import { rest_from_travel } from "./travel.js";
@@ -36,7 +35,7 @@ function wait() {
       if (state.step === last) pause();
       else wait();
     },
-    Math.max(Math.min(1500 + 45 * letters, 25000), state.step ? 0 : SWEEP),
+    Math.min(1500 + 45 * letters, 25000),
   );
 }
 
