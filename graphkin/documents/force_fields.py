@@ -286,6 +286,15 @@ HELD = 1e-9
 def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDrawing:
     """The drawing of the forces, with the mechanism at its place on the other sheets.
 
+    Raises as ``proved_forces`` does.
+    """
+    drawing = proved_forces(mechanism, drawings[0])
+    return laid_out(drawing, drawings[0].stand or mechanism_field(drawings))
+
+
+def proved_forces(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
+    """The drawing of the forces without its fields, in words and scales of another drawing.
+
     Raises StructureError for a group whose forces are not drawn yet, and WitnessError where the
     polygons, the equations of equilibrium and the lever disagree.
     """
@@ -296,7 +305,7 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
     by_forces = mechanism.forces()
     assert by_forces is not None
     found, verdict = by_forces
-    drawing, first = unplaced(mechanism, drawings), drawings[0]
+    drawing = unplaced(mechanism, first)
     worst = max(verdict.largest_difference, abs(verdict.power), *differences(drawing, found))
     if worst > HELD:
         raise WitnessError(
@@ -310,14 +319,12 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
                 message("no sheet is handed out"),
             )
         )
-    drawing = replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
-    return laid_out(drawing, first.stand or mechanism_field(drawings))
+    return replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
 
 
-def unplaced(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDrawing:
-    """The drawing of the forces without its fields."""
-    first, trace = drawings[0], traced(mechanism)
-    own = FORCE, mechanism.scene, trace, first.scales, first.verdict, first.words
+def unplaced(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
+    """The drawing of the forces without its fields, not proved."""
+    own = FORCE, mechanism.scene, traced(mechanism), first.scales, first.verdict, first.words
     return ForceDrawing(*own, again=True, computed={})
 
 
@@ -330,7 +337,7 @@ def force_scales(mechanism: Mechanism, chosen: Scales) -> Scales:
         for kind in SHEETS
         if (found := targets_of(mechanism, kind))
     ]
-    return laid_out(unplaced(mechanism, drawings), mechanism_field(drawings)).scales
+    return laid_out(unplaced(mechanism, drawings[0]), mechanism_field(drawings)).scales
 
 
 def with_force_plan(
