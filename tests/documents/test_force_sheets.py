@@ -140,9 +140,9 @@ def test_the_key_has_the_arms_of_weights_and_of_the_lever(name):
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("gears", ["the reactions in pins", "the reactions in the contacts of links 2, 3"]),
+        ("gears", ["the reactions in pins", "the contact forces on links 2, 3"]),
         ("belt-on-arm", ["the reactions in pins", "both strands of the belt of link 2"]),
-        ("rack", ["the guide of block", "the contact of link"]),
+        ("rack", ["the guide of block", "the contact force on link"]),
     ],
 )
 def test_the_task_names_each_pair_by_its_kind(name, said):
