@@ -6,7 +6,6 @@ The sheet of forces of a mechanism, verified before it is drawn.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from functools import reduce
 from itertools import combinations, pairwise
 from math import isfinite
@@ -295,15 +294,15 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
 def proved_forces(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
     """The drawing of the forces without its fields, in words and scales of another drawing.
 
-    Raises StructureError for a group whose forces are not drawn yet, and WitnessError where the
-    polygons, the equations of equilibrium and the lever disagree.
+    Raises StructureError for forces that equilibrium does not determine, and for a group whose
+    forces are not drawn yet, and WitnessError where the polygons, the equations of equilibrium and
+    the lever disagree.
     """
-    groups = mechanism.laid[0]
-    group = undrawn(mechanism.scene, groups)
-    if group is not None:
-        raise StructureError(not_drawn(mechanism, group))
     by_forces = mechanism.forces()
     assert by_forces is not None
+    group = undrawn(mechanism.scene, mechanism.laid[0])
+    if group is not None:
+        raise StructureError(not_drawn(group))
     found, verdict = by_forces
     drawing = unplaced(mechanism, first)
     worst = max(verdict.largest_difference, abs(verdict.power), *differences(drawing, found))
@@ -353,14 +352,10 @@ def with_force_plan(
     return whole, force_scales(mechanism, chosen), whole.asked()
 
 
-def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
+def not_drawn(group: Group) -> Problem:
     """The problem of a group whose forces are not drawn, with a hint where its numbers are."""
     first, *others = group.links
     links = joined_words(group.links) if others else link_words(first)
-    hint = message("leave reactions and balance out of [ask]")
-    with suppress(StructureError):
-        mechanism.forces()
-        hint = message("{hint}: graphkin solve gives their numbers", hint=hint)
     return Problem(
         "loads",
         message(
@@ -371,7 +366,10 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
         message(
             "dyads, cylinders, cams, wheels on pivots, racks, groups of class III, driven links"
         ),
-        hint,
+        message(
+            "graphkin solve gives their numbers, checked by virtual power; the other sheets are "
+            "drawn without reactions and balance in [ask]"
+        ),
     )
 
 
