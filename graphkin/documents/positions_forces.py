@@ -235,7 +235,8 @@ def force_table(
     """The asked forces in columns, a row for each position, in as many blocks as it takes."""
     words, most = found.shown.alone.words, most_rows(found)
     left, top, _, _ = field_on(found)
-    columns = [(words("positions.number"), [each.position.name for each in every], FIRST)]
+    numbers = [each.position.name for each in every]
+    columns: list[tuple[str, list[str], float]] = [(words("positions.number"), numbers, FIRST)]
     for row in rows:
         columns.append((row.head, row.written(words, 4), WIDTH))
     whole = sum(width for *_, width in columns)
