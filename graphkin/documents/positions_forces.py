@@ -179,7 +179,7 @@ def value_rows(every: Sequence[ForcedPosition]) -> Iterator[ValueRow]:
         yield ValueRow(f"{name} ({first.words.spelled(quantity.unit)})", sizes)
         if quantity is not BALANCING_MOMENT:
             ways = [
-                degrees(phase(value)) % TURN if value is not None and size else None
+                round(degrees(phase(value)), 6) % TURN if value is not None and size else None
                 for value, size in zip(values, sizes, strict=True)
             ]
             yield ValueRow(f"∠{name} (°)", ways)
