@@ -79,7 +79,7 @@ def sheet(
     you give --force. The force sheet is drawn if [ask] has reactions or balance.
 
     With --view positions, draws the whole motion: pump-n7-mechanism-positions.pdf has the mechanism
-    in twelve positions, or as [positions] says, and two more files have the plans of all of them.
+    in twelve positions, or as [positions] says, and more files have the plans of all of them.
 
     With --format html, writes one page for a browser, pump-n7-key.html, with both plans, every step
     and the results. Forces have a page of their own, and so has the whole motion. The pages need no

@@ -28,6 +28,7 @@ from graphkin.construction.core.palette import (
 )
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.coriolis import CoriolisComponent
+from graphkin.construction.forces.belt_force import BeltStrand
 from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, PassedReaction, Weight
 from graphkin.construction.forces.moments import ForceArm, TangentialPart
 from graphkin.construction.forces.polygon import ClosedByLines
@@ -73,6 +74,7 @@ BOARD: Mapping[str, PaletteAction] = {
 }
 """The actions of the board of a task page."""
 SLIPPING: tuple[type[Construction], ...] = (
+    BeltStrand,
     ClosedByLines,
     TangentialPart,
     PassedReaction,

@@ -6,7 +6,6 @@ The sheet of forces of a mechanism, verified before it is drawn.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import suppress
 from functools import reduce
 from itertools import combinations, pairwise
 from math import isfinite
@@ -286,17 +285,26 @@ HELD = 1e-9
 def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDrawing:
     """The drawing of the forces, with the mechanism at its place on the other sheets.
 
-    Raises StructureError for a group whose forces are not drawn yet, and WitnessError where the
-    polygons, the equations of equilibrium and the lever disagree.
+    Raises as ``proved_forces`` does.
     """
-    groups = mechanism.laid[0]
-    group = undrawn(mechanism.scene, groups)
-    if group is not None:
-        raise StructureError(not_drawn(mechanism, group))
+    drawing = proved_forces(mechanism, drawings[0])
+    return laid_out(drawing, drawings[0].stand or mechanism_field(drawings))
+
+
+def proved_forces(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
+    """The drawing of the forces without its fields, in words and scales of another drawing.
+
+    Raises StructureError for forces that equilibrium does not determine, and for a group whose
+    forces are not drawn yet, and WitnessError where the polygons, the equations of equilibrium and
+    the lever disagree.
+    """
     by_forces = mechanism.forces()
     assert by_forces is not None
+    group = undrawn(mechanism.scene, mechanism.laid[0])
+    if group is not None:
+        raise StructureError(not_drawn(group))
     found, verdict = by_forces
-    drawing, first = unplaced(mechanism, drawings), drawings[0]
+    drawing = unplaced(mechanism, first)
     worst = max(verdict.largest_difference, abs(verdict.power), *differences(drawing, found))
     if worst > HELD:
         raise WitnessError(
@@ -310,14 +318,12 @@ def force_drawing(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDra
                 message("no sheet is handed out"),
             )
         )
-    drawing = replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
-    return laid_out(drawing, first.stand or mechanism_field(drawings))
+    return replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
 
 
-def unplaced(mechanism: Mechanism, drawings: Sequence[Drawing]) -> ForceDrawing:
-    """The drawing of the forces without its fields."""
-    first, trace = drawings[0], traced(mechanism)
-    own = FORCE, mechanism.scene, trace, first.scales, first.verdict, first.words
+def unplaced(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
+    """The drawing of the forces without its fields, not proved."""
+    own = FORCE, mechanism.scene, traced(mechanism), first.scales, first.verdict, first.words
     return ForceDrawing(*own, again=True, computed={})
 
 
@@ -330,7 +336,7 @@ def force_scales(mechanism: Mechanism, chosen: Scales) -> Scales:
         for kind in SHEETS
         if (found := targets_of(mechanism, kind))
     ]
-    return laid_out(unplaced(mechanism, drawings), mechanism_field(drawings)).scales
+    return laid_out(unplaced(mechanism, drawings[0]), mechanism_field(drawings)).scales
 
 
 def with_force_plan(
@@ -346,14 +352,10 @@ def with_force_plan(
     return whole, force_scales(mechanism, chosen), whole.asked()
 
 
-def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
+def not_drawn(group: Group) -> Problem:
     """The problem of a group whose forces are not drawn, with a hint where its numbers are."""
     first, *others = group.links
     links = joined_words(group.links) if others else link_words(first)
-    hint = message("leave reactions and balance out of [ask]")
-    with suppress(StructureError):
-        mechanism.forces()
-        hint = message("{hint}: graphkin solve gives their numbers", hint=hint)
     return Problem(
         "loads",
         message(
@@ -364,7 +366,10 @@ def not_drawn(mechanism: Mechanism, group: Group) -> Problem:
         message(
             "dyads, cylinders, cams, wheels on pivots, racks, groups of class III, driven links"
         ),
-        hint,
+        message(
+            "graphkin solve gives their numbers, checked by virtual power; the other sheets are "
+            "drawn without reactions and balance in [ask]"
+        ),
     )
 
 

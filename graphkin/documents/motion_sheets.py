@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from graphkin.construction.core.quantities import SHEETS
+from graphkin.construction.core.quantities import FORCE, SHEETS
 from graphkin.documents.positions import PositionSet, positions_of
 from graphkin.documents.positions_plans import hodograph_page, hodographs, plan_page
 from graphkin.documents.positions_sheet import at_scale, positions_page
@@ -39,12 +39,18 @@ def motion_sheets(
 
 
 def position_sheets(found: PositionSet) -> Iterator[Made]:
-    """The mechanism in all positions, and their plans."""
+    """The mechanism in all positions, their plans, and their forces."""
     kL = at_scale(found).alone.scales.kL
     yield "mechanism", partial(positions_page, found)
     for kind in SHEETS:
         if found.planned(kind):
             yield kind, partial(plan_page, found, kind, kL)
+    given = found.cycle.scene.forces
+    if given is not None and given.asked:
+        from graphkin.documents.positions_forces import force_pages
+
+        for page in force_pages(found):
+            yield FORCE, page
 
 
 def diagram_sheets(found: PositionSet) -> Iterator[Made]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import ceil
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
@@ -14,6 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.naming import scale_of
 from graphkin.construction.core.paper_canvas import EDGE, above_foot, clipped_path
+from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.core.relation import figure
 from graphkin.construction.step_marks import bare_plan, is_point
 from graphkin.documents.composing import STILL_LARGER
@@ -103,9 +105,17 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
 
 def caption_scale(drawing: Drawing) -> str:
     """The entry of the title block for the scale: that of the plan."""
-    unit = "(m/s)/mm" if drawing.kind == "velocity" else "(m/s^2)/mm"
-    k = figure(drawing, scale_of(drawing, drawing.plane) / 1000)
-    return f"{k} {drawing.words.unit(unit)}"
+    return scale_text(drawing, 1.0)
+
+
+SCALES = {"velocity": ("v", "(m/s)/mm"), "acceleration": ("a", "(m/s^2)/mm"), FORCE: ("F", "N/mm")}
+"""The index of the scale factor of each kind of plan, and its unit."""
+
+
+def scale_text(drawing: Drawing, coarser: float) -> str:
+    """The scale factor of a plan that is drawn some times smaller than the others."""
+    k = figure(drawing, coarser * scale_of(drawing, drawing.plane) / 1000)
+    return f"{k} {drawing.words.unit(SCALES[drawing.kind][1])}"
 
 
 def poles_said(marks: Sequence[Mark], *, one: bool) -> str:
@@ -128,16 +138,20 @@ def scale_lines(found: PositionSet, kind: str) -> list[str]:
     """What the sheet says below its table: positions without a plan, kinds of components."""
     words = found.shown.alone.words
     some = {each.name for each in found.planned(kind)}
-    without = [e.name for e in found.numbered if not e.plans]
     asked = [e.name for e in found.numbered if e.plans and e.name not in some]
-    said: list[str] = []
-    if without:
-        said.append(words("positions.without", list=words("list_mark").join(without)))
+    said = [*without(found)]
     if asked:
         said.append(words("positions.not_asked", list=words("list_mark").join(asked)))
     if kind == "acceleration":
         said.append(words("positions.components"))
     return said
+
+
+def without(found: PositionSet) -> Iterator[str]:
+    """What a sheet says of positions that have no plan."""
+    words = found.shown.alone.words
+    if some := [each.name for each in found.numbered if not each.plans]:
+        yield words("positions.without", list=words("list_mark").join(some))
 
 
 def exceptions(found: PositionSet, drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
@@ -269,15 +283,26 @@ def from_own_poles(
     boxes = [box_of_plan(each.plans[kind]) for each in some]
     grid = grid_for(field_on(found), boxes, usual(boxes))
     scales = fitted(found, kind, kL, grid.most)
+    plans = [replace(each.plans[kind], scales=scales) for each in some]
+    mm = rates(scales, kind)
+    return scales, in_cells(found, [*zip(some, plans, boxes, strict=True)], grid, mm, bare_plan)
+
+
+def in_cells(
+    found: PositionSet,
+    plans: Sequence[tuple[Position, Drawing, Extent]],
+    grid: PlanGrid,
+    mm: float,
+    drawn: Callable[[Any, Field], FieldContent],
+) -> list[Mark]:
+    """The plans of some positions in a grid, each with its number, at mm for one of their unit."""
     numbers = dict(zip((e.name for e in found.every), numbers_of(found), strict=True))
-    marks: list[Mark] = [*lines(grid, len(some))]
-    for index, (each, box) in enumerate(zip(some, boxes, strict=True)):
+    marks: list[Mark] = [*lines(grid, len(plans))]
+    for index, (each, drawing, box) in enumerate(plans):
         left, top, right, low = rect = grid.cell(index)
         middle = (left + right) / 2, (top + ABOVE + low - BELOW) / 2
-        coarser = grid.coarser(box, rates(scales, kind))
-        field = Field(rect, rates(scales, kind) / coarser, box.middle, middle)
-        drawing = replace(each.plans[kind], scales=scales)
-        board = bare_plan(drawing, field)
+        coarser = grid.coarser(box, mm)
+        board = drawn(drawing, Field(rect, mm / coarser, box.middle, middle))
         board.labels = [replace(label, height=2.5) for label in board.labels]
         more = own_scale(drawing, coarser) if coarser > 1 else ""
         board.marks += number_of(found, each, rect, numbers[each.name], more)
@@ -285,7 +310,7 @@ def from_own_poles(
             replace(mark, name=" ".join(at_position(n, each.name) for n in mark.name.split()))
             for mark in board.finish()
         )
-    return scales, marks
+    return marks
 
 
 def lines(grid: PlanGrid, count: int) -> Iterator[Mark]:
@@ -300,10 +325,7 @@ def lines(grid: PlanGrid, count: int) -> Iterator[Mark]:
 
 def own_scale(drawing: Drawing, coarser: float) -> str:
     """The scale factor of a plan that is drawn smaller than the others."""
-    letter, unit = ("v", "m/s") if drawing.kind == "velocity" else ("a", "m/s^2")
-    k = figure(drawing, coarser * scale_of(drawing, drawing.plane) / 1000)
-    own = drawing.words.unit(f"({unit})/mm")
-    return f"*k*_{letter} = {k} {own}"
+    return f"*k*_{SCALES[drawing.kind][0]} = {scale_text(drawing, coarser)}"
 
 
 def number_of(

@@ -172,10 +172,13 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
         return [*marks, Text(x, y, elsewhere, "caption", LETTERS, name=NAME)]
 
 
-def proof(found: PositionSet) -> Iterator[Mark]:
-    """The sentence of the residual check at the foot of a sheet."""
+def proof(
+    found: PositionSet, key: str = "page.verified", difference: float | None = None
+) -> Iterator[Mark]:
+    """The sentence of a check at the foot of a sheet: of the residual check, or of another one."""
     words = found.shown.alone.words
-    text = words("page.verified", difference=words.significant(found.difference, 2))
+    worst = found.difference if difference is None else difference
+    text = words(key, difference=words.significant(worst, 2))
     left, _, _, low = found.shown.alone.paper.leaf.notes
     yield Text(left - 2, low - 1.2, text, "caption", 2.5, name="witness")
 

@@ -271,28 +271,57 @@ moment = 10
 [[drivers]]"""
 
 
-@pytest.mark.parametrize(
-    ("name", "link", "said", "solved"),
-    [
-        ("plates-coupled", 2, "class IV", True),
-        ("gears-double-planet", 2, "coupled train", True),
-        ("belts-crossed", 2, "belt", False),
-    ],
-)
-def test_a_group_whose_forces_are_not_drawn_is_named(name, link, said, solved):
-    """The sheet refuses with one sentence; the numbers are there but for belts."""
+def under_load(name: str, link: int | str) -> Mechanism:
+    """A scene with a moment on a link, which asks for the balance."""
     text = (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
     text = text.replace("[[drivers]]", LOADED.format(link=link), 1)
-    text = text.replace("[ask]", "[ask]\nbalance = true", 1)
-    mechanism = Mechanism(read_text(text, name, None, {}))
+    return Mechanism(read_text(text.replace("[ask]", "[ask]\nbalance = true", 1), name, None, {}))
+
+
+@pytest.mark.parametrize(
+    ("name", "link", "said"),
+    [
+        ("plates-coupled", 2, "class IV"),
+        ("plates-ring", 3, "class IV"),
+        ("gears-double-planet", 2, "coupled train"),
+        ("gears-ravigneaux", 2, "coupled train"),
+        ("gears-simpson", 3, "coupled train"),
+        ("platform-3rpr", 7, "closed by a driver"),
+        ("rod-and-wheel", 3, "closed by a driver"),
+        ("plank-two-sizes", 3, "closed by a wheel"),
+        ("wheel-in-ring", 2, "rolling on link 0"),
+        ("rope-levers", 3, "order 2"),
+    ],
+)
+def test_a_group_whose_forces_are_not_drawn_is_refused_and_solved(name, link, said):
+    """The sheet says in one sentence that solve has the numbers, which virtual power proves."""
+    mechanism = under_load(name, link)
     with pytest.raises(StructureError) as caught:
         hand_out(mechanism)
     (problem,) = caught.value.problems
     assert said in str(problem) and "not drawn yet" in str(problem)
-    assert ("graphkin solve" in str(problem)) is solved
-    if solved:
-        _, verdict = mechanism.forces()
-        assert verdict.agrees and not verdict.constructed
+    assert "graphkin solve gives their numbers" in str(problem)
+    _, verdict = mechanism.forces()
+    assert verdict.agrees and not verdict.constructed and abs(verdict.power) < 1e-12
+
+
+def test_such_a_group_is_refused_on_the_sheets_of_all_positions():
+    with pytest.raises(StructureError, match="graphkin solve gives their numbers"):
+        hand_out(under_load("rod-and-wheel", 3), "positions")
+
+
+@pytest.mark.parametrize(
+    ("name", "link", "said"),
+    [("locomotive", 4, "redundant constraints"), ("belts-crossed", 2, "belt")],
+)
+def test_forces_without_numbers_are_refused_with_the_reason(name, link, said):
+    """The sheet says what solve says, not that solve would have them."""
+    mechanism = under_load(name, link)
+    with pytest.raises(StructureError) as solved:
+        mechanism.forces()
+    with pytest.raises(StructureError) as drawn:
+        hand_out(mechanism)
+    assert str(drawn.value) == str(solved.value) and said in str(drawn.value)
 
 
 def test_the_plan_of_forces_follows_the_motion():

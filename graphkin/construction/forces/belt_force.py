@@ -6,12 +6,13 @@ states what fixes them: the tension of the slack strand, the mean of both, or th
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from typing import Any, ClassVar, NamedTuple
 
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
+from graphkin.construction.core.kind import Slip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.relation import Relation, answer, figure, put_in
@@ -80,24 +81,56 @@ def tension(more: Real, number: Real, rule: str) -> Real:
     return pick(more > 0, number * more, -more) / (number - 1)
 
 
+def swapped(kind: BeltStrand, force: Any, get: Callable[[int], Any]) -> Any:
+    """The force of a strand with the tension of the other one."""
+    return -strand_force.value(*kind.inputs(get), -kind.side, RULES.index(kind.rule))
+
+
+def of_other(kind: BeltStrand, force: Any, get: Callable[[int], Any]) -> Any:
+    """The force of a strand where the stated tension was given to the wrong strand.
+
+    The slack one's was given to the tight one, or the mean of both to the slack one. A ratio
+    belongs to neither.
+    """
+    centre, edge, number, *terms = kind.inputs(get)
+    more = kind.side * moment_sum(centre, terms) / abs(edge - centre)
+    wrong = {
+        "slack": number - pick(more < 0, -more, 0 * more),
+        "pretension": tension(more, number, "slack"),
+    }
+    right = tension(more, number, kind.rule)
+    share = wrong.get(kind.rule, right) / pick(right == 0, 1.0, right)
+    return force * share
+
+
 class BeltStrand(ForceByMoments, frozen=True, kw_only=True):
     """The force ``name`` of a strand on a ``link`` from the wheel of another, at its ``edge``.
 
-    ``sign`` is the label of the wheel.
+    ``sign`` is the label of the wheel, and ``side`` is +1 for its left strand, -1 for the right.
     ``first`` is the name and the step of the left strand, at the right one. ``stated`` is the
     symbol of ``number``, which ``rule`` explains.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_belt"}
+    slips: ClassVar[Mapping[str, Slip]] = {
+        "strands_swapped": Slip(1, "moderate", ("force",), taken=swapped),
+        "tension_of_other_strand": Slip(1, "moderate", ("force",), taken=of_other),
+    }
     none: ClassVar[str] = "step.force-belt-none"
 
     link: str
     sign: str
+    side: int
     rule: str
     stated: str
     number: int
     edge: OwnStep
     first: tuple[str, int] | None = None
+
+    def inputs(self, get: Callable[[int], Any]) -> tuple[Any, ...]:
+        """The values from which its force follows, without its side and its rule."""
+        steps = self.moments.about, self.edge, self.number, *self.moments.steps
+        return (*map(get, steps), *self.moments.extra)
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the radius to the point at which the strand leaves the wheel."""
@@ -245,6 +278,7 @@ def belt_strands(
             name=names[strand],
             link=link,
             sign=pen.scene.link(link).wheel_sign(wheels[0]),
+            side=side,
             rule=key,
             stated=stated,
             number=number,

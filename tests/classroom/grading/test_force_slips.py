@@ -102,7 +102,16 @@ def written(item, value: float) -> str:
 @pytest.mark.parametrize(
     "name",
     [
-        *("cam-rocker", "class-three", "cylinders", "four-bar", "gas-engine", "planetary", "rack"),
+        *(
+            "belt-on-arm",
+            "cam-rocker",
+            "class-three",
+            "cylinders",
+            "four-bar",
+            "gas-engine",
+            "planetary",
+            "rack",
+        ),
         *("ram", "shaper"),
     ],
 )
@@ -129,3 +138,36 @@ def test_one_wrong_force_that_later_ones_follow_is_followed(name):
     own = standard_of(name)
     graded = marked(own, {f: v * (1.4 if f.startswith("R_12") else 1) for f, v in own.key.items()})
     assert graded.earned >= graded.points - 2
+
+
+@pytest.mark.parametrize("slip", ["strands_swapped", "tension_of_other_strand"])
+def test_a_slip_in_a_belt_is_named_and_costs_its_own_share(slip):
+    """Strands that are not parallel, so that a swap of both changes the reaction in the pin."""
+    own = standard_of("belt-on-arm", ('centre = "O", radius = 60', 'centre = "O", radius = 110'))
+    _, told = values_by(own, slip)
+    graded = marked(own, told)
+    assert [each.name for each in graded.causes] == [slip]
+    assert graded.earned >= graded.points * Fraction(3, 4)
+
+
+@pytest.mark.parametrize(
+    ("stated", "taken_for"),
+    [("slack = 400", "pretension = {middle}"), ("pretension = 400", "slack = 400")],
+)
+def test_a_tension_of_the_wrong_strand_is_that_of_a_belt_stretched_otherwise(stated, taken_for):
+    """A slack tension taken for the tight one is a mean lower by half of the difference."""
+    own = standard_of("belt-on-arm", ("slack = 40", stated))
+    tight, slack = sorted((abs(own.key[f]) for f in ("R_02_left", "R_02_right")), reverse=True)
+    middle = 400 - (tight - slack) / 2
+    other = standard_of("belt-on-arm", ("slack = 40", taken_for.format(middle=middle)))
+    _, told = values_by(own, "tension_of_other_strand")
+    for field, item in own.by_field.items():
+        if item.item.unit != "mm":
+            assert told[field] == pytest.approx(other.key[field], rel=1e-9, abs=1e-9)
+
+
+def test_swapped_strands_have_each_the_tension_of_the_other():
+    own = standard_of("belt-on-arm")
+    _, told = values_by(own, "strands_swapped")
+    for one, other in (("R_02_left", "R_02_right"), ("R_02_right", "R_02_left")):
+        assert told[one] == pytest.approx(own.key[other], rel=1e-9)
