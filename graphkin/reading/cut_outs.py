@@ -19,8 +19,8 @@ AROUND = 1.5
 """Margin of a cut-out around its cell, in mm: digits run over the rules."""
 INSET = 0.8
 """Margin in mm inside a cell that is ignored when ink is looked for: the rules are there."""
-SHARE, GRAIN = 0.25, 6.0
-"""Ink is at least this part of a printed rule's darkness, and so many deviations of the paper's."""
+SHARE = 0.25
+"""Ink is at least this part of the darkness of a cell's printed rules."""
 STROKE, AREA = 1.2, 0.3
 """The least length (mm) of a stroke, and the least area (mm²) of all strokes, of a written cell."""
 MOST = 80
@@ -49,11 +49,9 @@ def is_written(grey: Any, over: PaperMap, rect: Rect) -> bool:
     edge, inset = round(DENSITY), round((1 + INSET) * DENSITY)
     across = slice(inset, -inset)
     rules = [lines[: 2 * edge, across].max(axis=0), lines[-2 * edge :, across].max(axis=0)]
-    inside = lines[across, across]
-    middle = float(np.median(inside))
-    grain = 1.4826 * float(np.median(abs(inside - middle)))
-    least = max(SHARE * float(np.median(np.concatenate(rules))), GRAIN * grain, FAINT)
-    _, _, parts, _ = cv2.connectedComponentsWithStats((inside > least).astype(np.uint8))
+    least = max(SHARE * float(np.median(np.concatenate(rules))), FAINT)
+    inked = (lines[across, across] > least).astype(np.uint8)
+    _, _, parts, _ = cv2.connectedComponentsWithStats(inked)
     strokes = [part for part in parts[1:] if max(part[2], part[3]) >= STROKE * DENSITY]
     return sum(int(part[4]) for part in strokes) >= AREA * DENSITY**2
 
