@@ -45,7 +45,10 @@ def add_handwritten(opened: Edition, folder: Path, given: Answers) -> None:
 
 
 def fields_by_cell(form: Iterable[Item]) -> Mapping[Cell, Item]:
-    """The fields of a form that have a cell in a table of a sheet."""
+    """The fields of a form that have a cell in a table of a sheet.
+
+    A balancing moment has two cells there, for two routes, and is left out.
+    """
     found: dict[Cell, Item] = {}
     for item in form:
         motion, row = motion_of(item), None
@@ -57,7 +60,7 @@ def fields_by_cell(form: Iterable[Item]) -> Mapping[Cell, Item]:
             row = "turns", turning_name(motion.letter, item.of)
         elif motion in SLIDING.values():
             row = "slides", slide_name(item.of)
-        elif motion in FORCES:
+        elif motion in FORCES and motion.sort == "vector":
             row = "sides", item.of
         if row is not None:
             found[motion.kind, *row, item.what] = item

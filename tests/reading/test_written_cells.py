@@ -14,10 +14,16 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from graphkin.classroom.lab.items import all_fields, asked_fields
 from graphkin.classroom.printing.edition import read_edition
+from graphkin.documents.scaling import sheet_motion
+from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, proved, with_forces
 from graphkin.drawing.marks import Text
+from graphkin.mechanism import load
 from graphkin.reading.desk_app import DeskSession
+from graphkin.reading.handwritten_answers import fields_by_cell
 from graphkin.reading.settled_points import records_in
+from graphkin.reading.written_cells import blank_cells
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
 from tests.reading.camera import Shot, photograph
@@ -166,3 +172,33 @@ def test_a_right_number_earns_its_points(a_class: Path, code: str, tmp_path: Pat
     data = (report / "marks.csv").read_text(encoding="utf-8-sig")
     (row,) = csv.DictReader(io.StringIO(data))
     assert row["v_B"] == "1"
+
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "scenes"
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        EXAMPLES / "engine-forces.toml",
+        EXAMPLES / "crank-slot.toml",
+        EXAMPLES / "crank-fixed-slot.toml",
+        EXAMPLES / "eight-link-1.toml",
+    ],
+    ids=lambda path: path.stem,
+)
+def test_every_cell_of_the_tables_is_a_field_and_what_is_asked_has_a_cell(path: Path) -> None:
+    mechanism = load(str(path)).measured
+    verdict = proved(mechanism, sheet_motion(mechanism))
+    drawings = with_forces(mechanism, drawings_of(mechanism, verdict, words("en")))
+    cells = {
+        (sheet.kind, cell.table, cell.name, cell.what)
+        for sheet in drawn_sheets(drawings, "task")
+        for page in sheet.pages
+        for cell, _ in blank_cells(page)
+    }
+    every = fields_by_cell(all_fields(mechanism).values())
+    asked = fields_by_cell(asked_fields(mechanism).values())
+    assert asked
+    assert {cell for cell in cells if cell not in every and cell[1] != "sides"} == set()
+    assert {cell for cell in asked if cell not in cells} == set()
