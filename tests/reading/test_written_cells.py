@@ -26,9 +26,11 @@ from graphkin.reading.settled_points import records_in
 from graphkin.reading.written_cells import blank_cells
 from graphkin.studio.session import PageRequestError
 from graphkin.text import words
+from tests.browser.opening import barred, heard
 from tests.reading.camera import Shot, photograph
 from tests.reading.hand import Habits, drawn_sheet, sheets_of, stroke
 from tests.reading.hand_letters import Writing, written
+from tests.reading.test_desk_drawings import at_desk
 from tests.running import ran
 
 WHO = "0042"
@@ -172,6 +174,34 @@ def test_a_right_number_earns_its_points(a_class: Path, code: str, tmp_path: Pat
     data = (report / "marks.csv").read_text(encoding="utf-8-sig")
     (row,) = csv.DictReader(io.StringIO(data))
     assert row["v_B"] == "1"
+
+
+CARD = "document.getElementById('card-title').textContent"
+SHOWN = "(() => { const i = document.getElementById('cut-out'); return i.naturalWidth; })()"
+
+
+def test_numbers_are_typed_one_after_the_other(report: Path, chromium: Any) -> None:
+    """The picture beside the field, the field in hand, Enter for the next, nothing on the mouse."""
+    folder = copytree(report, report.with_name("browser"))
+    session = DeskSession(folder, words("en"), "Ana")
+    with at_desk(session) as address:
+        page = chromium.new_page(viewport={"width": 1366, "height": 768}, bypass_csp=True)
+        with heard(page, "pageerror") as errors:
+            page.goto(address)
+            page.wait_for_selector("body[data-ready=yes]")
+            page.wait_for_function(f"{SHOWN} > 100")
+            first = page.evaluate(CARD)
+            page.keyboard.press("Enter")  # nothing typed: the next, and nothing is decided
+            page.wait_for_function(f"{CARD} !== {json.dumps(first)}")
+            page.keyboard.type("3,1")
+            page.keyboard.press("Enter")
+            page.wait_for_function("document.getElementById('card').hasAttribute('hidden')")
+            assert barred(page) == []
+        page.close()
+        assert not errors
+    states = {each["title"]: each["state"] for each in session.everything()["items"]}
+    assert sorted(states.values()) == ["decided", "open"]
+    assert next(title for title, state in states.items() if state == "decided").startswith("ω2")
 
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenes"
