@@ -242,6 +242,8 @@ def grade(  # noqa: PLR0915
     refusals = Refusals()
     drawings, answers = answers, drawn_table(opened, answers, refusals)
     given = read_answers(answers, opened.book.form, opened.signs, match or "")
+    if drawings != answers:
+        note_handwritten(opened, drawings, given)
     given.of = read_as(given.of, desk.readings, opened.book.form)
     if drawings != answers:
         note_followed(opened, drawings, given, refusals)
@@ -340,6 +342,13 @@ def drawn_table(opened: Edition, folder: Path, refusals: Refusals) -> Path:
 
     write_answers(opened, folder, refusals)
     return folder / ANSWERS
+
+
+def note_handwritten(opened: Edition, folder: Path, given: Answers) -> None:
+    """Let the fields wait whose numbers are in the tables of a photographed sheet."""
+    from graphkin.reading.handwritten_answers import add_handwritten
+
+    add_handwritten(opened, folder, given)
 
 
 def note_followed(opened: Edition, folder: Path, given: Answers, refusals: Refusals) -> None:

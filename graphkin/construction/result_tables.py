@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Literal
 
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.naming import drawn_in, segment_of, sense, way_of
@@ -30,6 +31,13 @@ WIDTHS |= {"sides": (13.5, 13, 16), "balance": (20, 30, 20), "arms": (13, 13)}
 NUMBERS = {"vectors": (2, 3), "turns": (1,), "slides": (1,)}
 NUMBERS |= {"sides": (1, 2), "balance": (1, 2), "arms": (1,)}
 """The columns of numbers of each table; those before them name the row."""
+WRITTEN: Mapping[str, Mapping[int, Literal["segment", "value", "sense"]]] = {
+    "vectors": {2: "segment", 3: "value"},
+    "turns": {1: "value", 2: "sense"},
+    "slides": {1: "value", 2: "sense"},
+    "sides": {1: "segment", 2: "value"},
+}
+"""What a hand writes into the columns of each table of a task sheet."""
 LEGIBLE = 2.0
 """Least length in mm of a vector that is read off a plan: an error of 0.5 mm is a quarter of it."""
 COMPUTED = "computed"
@@ -102,8 +110,18 @@ def turning_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
     rows = []
     for link, value in turning_links(drawing):
         cells = ("", "") if empty else (words.significant(abs(value)), sense(words, value))
-        rows.append(Row((drawing.symbol(f"{letter}_{link}"), *cells), f"{letter}{link}"))
+        rows.append(Row((drawing.symbol(f"{letter}_{link}"), *cells), turning_name(letter, link)))
     return rows
+
+
+def turning_name(letter: str, link: str) -> str:
+    """The name of the row of an angular velocity or acceleration."""
+    return f"{letter}{link}"
+
+
+def slide_name(block: str) -> str:
+    """The name of the row of a block's motion along its guide."""
+    return f"slide {block}"
 
 
 def turning_links(drawing: Drawing) -> Iterator[tuple[str, float]]:
@@ -126,7 +144,7 @@ def slide_rows(drawing: Drawing, *, empty: bool) -> list[Row]:
         if not empty:
             size = drawing.settled(abs(value))
             cells = (words.significant(size), slide_sense(drawing, block, value) if size else "")
-        rows.append(Row((name, *cells), f"slide {block}"))
+        rows.append(Row((name, *cells), slide_name(block)))
     return rows
 
 
@@ -202,6 +220,7 @@ def column_tables(drawing: Drawing, *, empty: bool) -> list[ColumnTable]:
             tuple(table.rows),
             beside=table.kind == "turns",
             numbers=tuple(i for i in NUMBERS[table.kind] if i < len(table.heads)),
+            kind=table.kind,
         )
         for table in every
     ]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
+from itertools import accumulate
 from typing import NamedTuple
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.drawing.field import Rect
-from graphkin.drawing.marks import LineMark, Mark, Text, box
+from graphkin.drawing.marks import LineMark, Mark, RuledRow, Text, box
 from graphkin.drawing.richtext import extent
 from graphkin.text.errors import PageError, Problem, message
 from graphkin.text.tables import Row
@@ -60,6 +61,7 @@ class ColumnTable(Struct, frozen=True):
     - ``among``: all rows of a table that is split into blocks, which share one look.
     - ``beside``: the table goes next to a table of one block, and below one of several blocks.
     - ``numbers``: the columns of numbers, aligned at their decimal marks.
+    - ``kind``: what the table holds, for those who look for its rows on a page.
     """
 
     widths: tuple[float, ...]
@@ -68,6 +70,7 @@ class ColumnTable(Struct, frozen=True):
     among: tuple[Row, ...] = ()
     beside: bool = False
     numbers: tuple[int, ...] = ()
+    kind: str = ""
 
     def lines(self, look: Look) -> float:
         """The height in rows of a look, including the head."""
@@ -122,8 +125,12 @@ class ColumnTable(Struct, frozen=True):
         widths, row = self.columns(look), look.row
         total, head, height = sum(widths), row * look.top, row * self.lines(look)
         marks: list[Mark] = [box(x, y, total, head, "shade")]
-        for low in (y, *(y + head + i * row for i in range(len(self.rows) + 1))):
-            marks.append(LineMark(x, low, x + total, low, "panel"))
+        marks += (LineMark(x, top, x + total, top, "panel") for top in (y, y + head))
+        edges = tuple(accumulate(widths, initial=0.0))
+        for i, each in enumerate(self.rows, 1):
+            ruled = RuledRow(self.kind, each.name, i, row, edges)
+            low = y + head + i * row
+            marks.append(LineMark(x, low, x + total, low, "panel", row=ruled))
         left = x
         for width in (*widths, 0.0):
             marks.append(LineMark(left, y, left, y + height, "panel"))

@@ -37,8 +37,21 @@ class Shown(Struct, frozen=True):
     link: str
 
 
+class RuledRow(Struct, frozen=True):
+    """A row of a printed table: what the table holds, what the row is about, and its number.
+
+    ``height`` is in mm. ``edges`` are the offsets of its columns from the row's left end, in mm.
+    """
+
+    table: str
+    name: str
+    number: int
+    height: float
+    edges: tuple[float, ...]
+
+
 class LineMark(Struct, frozen=True):
-    """A straight line between two points."""
+    """A straight line between two points; ``row`` is the row of a table that it rules off."""
 
     x1: float
     y1: float
@@ -49,6 +62,7 @@ class LineMark(Struct, frozen=True):
     step: int | None = None
     part: int = 0
     shows: Shown | None = None
+    row: RuledRow | None = None
 
 
 class Polyline(Struct, frozen=True):

@@ -178,6 +178,7 @@ SAID = (
     "missing", "unread", "next", "undo", "key", "flicker", "by_keys", "refused", "saved",
     "failed", "gone", "sheets", "help", "pin", "pins", "rivals", "reason", "points", "reading",
     "remark", "decided", "disagree", "marks_by_keys", "pin_help", "to_decide",
+    "cut_out",
     *(f"kind_{kind}" for kind in KINDS),
 )  # fmt: skip
 """The sentences of the page."""
@@ -199,6 +200,7 @@ class DeskSession(Struct, dict=True):
         readings = self.folder
         if report is not None and report.readings:
             readings = self.folder / report.readings
+        self.readings = readings
         how = self.words, self.marker, self.anonymous
         drawn = readings.is_dir() and any(readings.glob(f"*{READING}"))
         self.drawings = DrawingDesk(readings, *how) if drawn else None
@@ -268,6 +270,20 @@ class DeskSession(Struct, dict=True):
         with self.lock:
             return self.of_marks().shown(name)
 
+    def picture(self, name: str) -> bytes:
+        """The flattened picture of a sheet. Raises PageRequestError where there is none."""
+        if self.drawings is None:
+            raise PageRequestError(name)
+        return self.drawings.picture(name)
+
+    def cut_out(self, name: str) -> bytes:
+        """The picture of a handwritten cell. Raises PageRequestError where there is none."""
+        with self.lock:
+            item = self.of_marks().item(name)
+        if not item.cut_out or Path(item.cut_out).name != item.cut_out:
+            raise PageRequestError(name)
+        return (self.readings / item.cut_out).read_bytes()
+
     def of_marks(self) -> MarkDesk:
         """The part about marks. Raises PageRequestError where the folder has none."""
         if self.marks is None:
@@ -316,13 +332,14 @@ def desk_page(session: DeskSession) -> bytes:
 def desk_application(session: DeskSession) -> Any:
     """The WSGI application of a desk."""
 
-    def picture(name: str) -> Any:
-        try:
-            if session.drawings is not None:
-                return answer(200, "image/jpeg", session.drawings.picture(name))
-        except (PageRequestError, OSError):
-            pass
-        return answer(404, "text/plain", b"no such picture\n")
+    def shown(picture: Callable[[str], bytes]) -> Callable[[str], Any]:
+        def handler(name: str) -> Any:
+            try:
+                return answer(200, "image/jpeg", picture(name))
+            except (PageRequestError, OSError):
+                return answer(404, "text/plain", b"no such picture\n")
+
+        return handler
 
     def item(name: str) -> Any:
         try:
@@ -334,7 +351,8 @@ def desk_application(session: DeskSession) -> Any:
     app = new_application(HERE)
     app.route("/", "GET", lambda: answer(200, "text/html", desk_page(session)))
     app.route("/everything", "GET", lambda: answer(200, JSON, encoded(session.everything())))
-    app.route("/picture/<name>.jpg", "GET", picture)
+    app.route("/picture/<name>.jpg", "GET", shown(session.picture))
+    app.route("/cut-out/<name>.jpg", "GET", shown(session.cut_out))
     app.route("/item/<name>", "GET", item)
     works: dict[str, Callable[[bytes], dict[str, Any]]] = {
         "/news": session.news,

@@ -130,8 +130,14 @@ class MarkDesk(Struct, dict=True):
         return [
             {"name": name, "kind": each.kind, "title": each.title, "state": self.state(each)}
             for name, each in self.items().items()
-            if not (each.own == OPEN and self.queue.graded[each.places[0][0]].taker.code in drawn)
+            if not (
+                self.is_drawn(each) and self.queue.graded[each.places[0][0]].taker.code in drawn
+            )
         ]
+
+    def is_drawn(self, item: DeskItem) -> bool:
+        """Whether an item is a field that a drawing leaves open."""
+        return item.own == OPEN and not item.cut_out
 
     def state(self, item: DeskItem) -> str:
         """Whether an item is ``open``, ``decided``, or people ``disagree`` on it."""
@@ -175,6 +181,7 @@ class MarkDesk(Struct, dict=True):
             "rows": [self.row(place) for place in item.shown],
             "choices": [each.said for each in item.choices],
             "reads": item.own if item.kind == "cell" and item.own else None,
+            "cut_out": bool(item.cut_out),
             "most": most.pop() if len(most) == 1 else "",
             "decided": self.decided(item),
             "known": self.rulings.count,

@@ -53,6 +53,7 @@ class DeskItem(Struct, frozen=True):
 
     ``title`` is its line in the queue, ``reason`` says why a person must decide. ``places`` are the
     marks decided; ``shown`` are the rows to see. ``own`` is the text of a cell, or of an appeal.
+    ``cut_out`` is the picture of a handwritten cell, a file among the readings.
     """
 
     kind: DeskKind
@@ -62,6 +63,7 @@ class DeskItem(Struct, frozen=True):
     shown: tuple[Place, ...]
     choices: tuple[DeskChoice, ...]
     own: str = ""
+    cut_out: str = ""
 
     @property
     def name(self) -> str:
@@ -96,26 +98,29 @@ class DeskQueue(Struct, frozen=True):
     def cells(self) -> Iterator[DeskItem]:
         """Cells that wait: the same text in the same field is one thing to decide.
 
-        A drawing that leaves a field open is a matter of its student alone.
+        A drawing that leaves a field open is a matter of its student alone, and so is a cell that a
+        hand wrote on a sheet.
         """
         words, by_cell = self.words, defaultdict[tuple[str, str, str, str], list[Place]](list)
+        cut_outs = {(cell.who, cell.field): cell.cut_out for cell in self.report.cells}
         units = {cell.field: cell.unit for cell in self.report.cells}
         for cell in self.report.cells:
             if cell.who in self.graded:
                 alone = cell.who if cell.text.strip() == OPEN else ""
                 by_cell[cell.field, cell.text, cell.problem, alone].append((cell.who, cell.field))
         for (field, text, problem, _), places in by_cell.items():
-            mark = self.mark(places[0])
+            name, cut_out = called(self.mark(places[0]), words), cut_outs[places[0]]
             shown = shown_cell(text.strip())
             why = unread(problem, units[field], words, shown_cell(beyond_number(text)))
             yield DeskItem(
                 "cell",
-                self.titled(f"{called(mark, words)}: “{shown}”", places),
-                f"“{shown}” {why}",
+                self.titled(name if cut_out else f"{name}: “{shown}”", places),
+                words("desk.type_it") if cut_out else f"“{shown}” {why}",
                 tuple(places),
                 tuple(places),
                 (*self.readings(text, problem, places), *self.shares(places, (0, 1))),
                 text,
+                cut_out,
             )
         for who, graded in self.graded.items():
             if graded.present and all(m.answer.problem == WITHHELD for m in graded.marks):

@@ -1,7 +1,8 @@
 """The reading of a class of photographs into a folder: resumable, on all cores, one run at a time.
 
 For each photograph the folder holds NAME.jpg, the flattened sheet, and NAME.reading.json, the
-record. The file answers.csv holds the form fields that follow from them, as ``grade`` reads them.
+record. NAME.cell-0.jpg and so on are the cells of the sheet's tables that hold handwriting. The
+file answers.csv holds the form fields that follow from them, as ``grade`` reads them.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from graphkin.reading.drawn_answers import ANSWERS, answers_table, drawn_items
 from graphkin.reading.pictures import Photograph, hash_of_picture
 from graphkin.reading.read_sheet import Grid, ReadOrder, SheetRead, SheetRecord, read_some
 from graphkin.reading.settled_points import PICTURE, READING, kept
+from graphkin.reading.written_cells import cut_out_name
 from graphkin.text import as_text
 from graphkin.text.errors import Refusals
 from graphkin.text.tables import safe
@@ -29,7 +31,7 @@ from graphkin.writers.commit import held, put_in_place, settle
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 16
+METHOD = 17
 """Version of the method.
 
 Increase it when the same photograph would be read differently, so that older readings are redone.
@@ -119,6 +121,7 @@ def put(out: Path, one: SheetRead) -> None:
     """Write a record and its picture."""
     name = one.record.name
     files = {out / f"{name}{PICTURE}": one.picture} if one.picture else {}
+    files |= {out / cut_out_name(name, number): cut for number, cut in enumerate(one.cells)}
     data = msgspec.json.format(msgspec.json.encode(one.record, enc_hook=as_text), indent=1)
     put_in_place(out, {**files, out / f"{name}{READING}": data + b"\n"})
 

@@ -22,6 +22,7 @@ from graphkin.reading.paper_map import PaperMap
 from graphkin.reading.pictures import Photograph, Unreadable, colours_of, darkest
 from graphkin.reading.plan_causes import PlanCause
 from graphkin.reading.point_reading import PointReading
+from graphkin.reading.written_cells import WrittenCell
 from graphkin.text import LANGUAGES
 from graphkin.text.errors import problems_of
 
@@ -60,6 +61,8 @@ class SheetRecord(Struct, frozen=True):
     cause: PlanCause | None = None
     paper: tuple[str, str] = (A3.name, A3.frame.name)
     """The names of the paper and of its frame."""
+    written: tuple[WrittenCell, ...] = ()
+    """The cells of the sheet's tables that hold handwriting, in the order of their cut-outs."""
 
     @property
     def on(self) -> SheetPaper:
@@ -80,10 +83,14 @@ class ReadOrder(Struct, frozen=True):
 
 
 class SheetRead(Struct, frozen=True):
-    """A record, and the flattened picture as JPEG; b"" where the photograph was refused."""
+    """A record, and as JPEG the flattened picture and the cut-outs of written cells.
+
+    The picture is b"" where the photograph was refused.
+    """
 
     record: SheetRecord
     picture: bytes = b""
+    cells: tuple[bytes, ...] = ()
 
 
 class FoundSheet(Struct, frozen=True):
@@ -122,6 +129,7 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
         points, corners_at, cause = (
             points_to_click(found, order) if order.by_hand else read_points(grey, found)
         )
+        written = cells_with_ink(picture, grey, found)
         read = replace(
             record,
             code=code,
@@ -134,8 +142,10 @@ def read_one(order: ReadOrder, photograph: Photograph, key: str) -> SheetRead:
             residual=round(found.residual, 3),
             paper=(found.map.paper.name, found.map.paper.frame.name),
             cause=cause,
+            written=tuple(cell for cell, _ in written),
         )
-        return SheetRead(read, flat_picture(picture, found.map))
+        flat = flat_picture(picture, found.map)
+        return SheetRead(read, flat, tuple(cut for _, cut in written))
     except Exception as error:
         refused = str(error) if isinstance(error, Unreadable) else problems_of(error)[0].found
         who = student_label(order, code)
@@ -294,6 +304,13 @@ def points_to_click(found: FoundSheet, order: ReadOrder) -> Points:
     return tuple(replace(point, ask=point.step in needed) for point in points), {}, None
 
 
+def cells_with_ink(picture: Any, grey: Any, found: FoundSheet) -> list[tuple[WrittenCell, bytes]]:
+    """The cells of a found sheet's tables that hold handwriting, with their cut-outs."""
+    from graphkin.reading.cut_outs import written_cells
+
+    return written_cells(picture, grey, found.map, found.sheet.page)
+
+
 def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
     """The pixels of a grid of places."""
     if not grid.x or not grid.y:
@@ -304,11 +321,7 @@ def mapped(over: PaperMap, grid: Grid) -> tuple[tuple[float, float], ...]:
 
 def flat_picture(picture: Any, over: PaperMap) -> bytes:
     """The flattened sheet as a JPEG without metadata, in the picture's colours."""
-    import cv2
-
+    from graphkin.reading.cut_outs import as_jpeg
     from graphkin.reading.drawn_ink import flattened
 
-    flat = flattened(picture, over, over.paper.whole, SHOWN)
-    if flat.ndim == 3:
-        flat = cv2.cvtColor(flat, cv2.COLOR_RGB2BGR)
-    return bytes(cv2.imencode(".jpg", flat, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1])
+    return as_jpeg(flattened(picture, over, over.paper.whole, SHOWN), QUALITY)

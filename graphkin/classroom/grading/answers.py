@@ -283,7 +283,8 @@ OTHERS = {folded(n) for w, every in (BESIDE | {"email": EMAIL}).items() for n in
 class Unread(Struct, frozen=True):
     """A cell that cannot be read: its file and row, its student, its field and its text.
 
-    ``problem`` is that of its :class:`Answer`; ``unit`` is that of its field.
+    ``problem`` is that of its :class:`Answer`; ``unit`` is that of its field. ``cut_out`` is the
+    picture of a handwritten cell, a file among the readings.
     """
 
     file: str
@@ -293,6 +294,7 @@ class Unread(Struct, frozen=True):
     text: str
     problem: str
     unit: str = ""
+    cut_out: str = ""
 
 
 class Stranger(Struct, frozen=True):

@@ -496,6 +496,7 @@ def result_lines(result: Result, words: Words) -> Iterator[str]:
     if held:
         yield held
     counts = [len(list(decisions_of(result, is_open=is_open))) for is_open in (False, True)]
-    counts[0] += sum(bool(mark.answer.written) for each in result.graded for mark in each.marks)
+    answers = [mark.answer for each in result.graded for mark in each.marks]
+    counts[0] += sum(bool(answer.written) or answer.typed for answer in answers)
     if any(counts):
         yield words("class.decided", count=counts[0], open=counts[1])

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.decisions import Deciding
-from graphkin.classroom.grading.graded import Answer, Decision
+from graphkin.classroom.grading.graded import HANDWRITTEN, Answer, Decision
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.classroom.roster.read_roster import NAMES
 from graphkin.classroom.roster.spreadsheets import RowProblems, columns, folded, read_sheet
@@ -250,7 +250,9 @@ def read_as(
     found = {who: dict(own) for who, own in answers.items()}
     for (who, name), reading in readings.items():
         own = found.get(who, {})
-        if name in own and own[name].text == reading.written:
+        cell = own.get(name)
+        if cell is not None and cell.text == reading.written:
             read = replace(read_answer(reading.text, items[name]), grouped=None)
-            own[name] = replace(read, written=reading.written)
+            typed = cell.problem == HANDWRITTEN
+            own[name] = replace(read, written="" if typed else reading.written, typed=typed)
     return found

@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import beyond_number, shown_cell
 from graphkin.classroom.grading.graded import (
+    HANDWRITTEN,
     THOUSANDS,
     WITHHELD,
     Decision,
@@ -62,6 +63,7 @@ UNREAD = {
     "turning": "unread.turning",
     "sliding": "unread.sliding",
     THOUSANDS: "unread.thousands",
+    HANDWRITTEN: "unread.handwritten",
     WITHHELD: "unread.withheld",
 }
 """The sentence for each reason why a cell cannot be read."""
@@ -152,6 +154,8 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
     if mark.answer.written:
         text = escape(safe(mark.answer.text)) or "–"
         reason = f"{words('feedback.read_as', text=text)}; {reason}"
+    if mark.answer.typed:
+        reason = f"{words('feedback.typed')}; {reason}"
     if mark.decision is not None:
         reason = f"{reason}; {decision_words(mark.decision, words)}"
     if mark.item.field in graded.remarks:

@@ -17,9 +17,10 @@ if TYPE_CHECKING:
     from graphkin.classroom.grading.standard import Expectation
 
 
-WITHHELD, THOUSANDS = "withheld", "thousands"
+WITHHELD, THOUSANDS, HANDWRITTEN = "withheld", "thousands", "handwritten"
 """Reasons why a cell cannot be read.
 
+With ``HANDWRITTEN``, a person is to type what a cut-out of the student's sheet shows.
 With ``WITHHELD``, everything that the student handed in is refused. With ``THOUSANDS``, a point or
 comma may separate thousands.
 """
@@ -32,11 +33,12 @@ class Answer(Struct, frozen=True):
     sign was written.
 
     ``problem`` is why a cell cannot be read, which is not the same as wrong: open, number, unit,
-    large, turning, sliding, thousands or withheld.
+    large, turning, sliding, thousands, withheld or handwritten.
 
     ``followed`` says that the answer was found on the drawing to follow from the student's own
     earlier points. ``grouped`` is the number if its point or comma separates thousands. ``written``
-    is what the cell holds, where a person read it as ``text``.
+    is what the cell holds, where a person read it as ``text``. ``typed`` says that a person typed
+    it from a photograph of the sheet.
     """
 
     text: str
@@ -46,6 +48,7 @@ class Answer(Struct, frozen=True):
     followed: bool = False
     grouped: float | None = None
     written: str = ""
+    typed: bool = False
 
     @property
     def is_blank(self) -> bool:

@@ -215,8 +215,8 @@ async function holdItem(name) {
   row = 0;
   card(found);
   for (const field of ["reading", "own-points", "reason"]) find(field).value = "";
-  find("reading").value = found.reads ?? "";
-  find("card").focus();
+  find("reading").value = found.cut_out ? "" : (found.reads ?? "");
+  find(found.cut_out && waits(found) ? "reading" : "card").focus();
 }
 
 function element(name, text = "", kind = "") {
@@ -237,6 +237,8 @@ function card(found) {
   panels();
   find("card-title").textContent = `${said[`kind_${found.kind}`]}: ${found.title}`;
   find("told").textContent = found.told;
+  find("cut-out").hidden = !found.cut_out;
+  if (found.cut_out) find("cut-out").src = `cut-out/${encodeURIComponent(found.name)}.jpg`;
   find("sums").replaceChildren(...found.sums.map(each => element("li", each)));
   find("causes").replaceChildren(...found.causes.map(each => marked("li", each)));
   const who = new Set(found.rows.map(each => each.who)).size > 1;
@@ -575,7 +577,11 @@ const onEnter = {
   // what Enter does in a field; in the others it leaves the field
   pin: savePin,
   remark,
-  reading: () => rule({ reading: find("reading").value }),
+  reading: () => {
+    const reading = find("reading").value;
+    if (held.cut_out && !reading.trim()) next();
+    else rule({ reading });
+  },
   "own-points": () => rule({ points: find("own-points").value.trim() }),
 };
 document.addEventListener("keydown", event => {
