@@ -688,7 +688,7 @@ def in_turn(
     numbers are noted in the form ``noted``. Without it, PageError is raised where one has no place.
     """
     labels = board.labels
-    vectors = [i for i, label in enumerate(labels) if label.spare]
+    vectors = [i for i, label in enumerate(labels) if label.spare and label.cls not in HELPERS]
     helpers = [i for i, label in enumerate(labels) if label.cls in HELPERS]
     first = [i for i, label in enumerate(labels) if must_be_named(label)]
     left_out: list[int] = []
@@ -698,12 +698,16 @@ def in_turn(
         names = [(noted or labels)[i].markup for i in left_out]
         foot = board.footed([*said, *board.nameless(names)])
         found: dict[int, Spot] = {}
-        wanted = [[i for i in which if i not in left_out] for which in (first, vectors)]
-        for which in (*wanted, helpers):
-            found |= placed_after(board, foot, found, which)
+        for which in (first, vectors, helpers):
+            wanted = [i for i in which if i not in left_out]
+            found |= placed_after(board, foot, found, wanted)
         if not noted:
             refuse_crowds([labels[i] for i in first], [found[i] for i in first])
-        crowded = [i for which in wanted for i in which if not found[i].free]
+        crowded = [
+            i
+            for i, spot in found.items()
+            if not spot.free and (labels[i].spare or labels[i].cls not in HELPERS)
+        ]
         if not crowded:
             break
         left_out = sorted([*left_out, *crowded])
