@@ -151,7 +151,7 @@ def without_plan(found: PositionSet, kind: str) -> Iterator[str]:
 def components(drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
     """The patterns of the lines of those components that the plans have."""
     drawn = {style_class(mark) for mark in marks}
-    said = [f"positions.{kind.look}_lines" for kind in COMPONENTS if kind.look in drawn]
+    said = [kind.pattern for kind in COMPONENTS if kind.look in drawn]
     if said:
         yield "; ".join(map(drawing.words, said))
 
