@@ -147,6 +147,8 @@ ROOM = RIGHT - LEFT - INDENT
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 HALF = A4_SIZE[1] / 2
 """A page whose last line is higher is less than half full, in mm."""
+EVEN = 0.75
+"""Least height of a page's lines in that of the fullest page, except on the last page."""
 DOT = ". "
 BLANK = DOT * 13 + DOT[0]
 """The least room to write in, on the form to be filled in."""
@@ -286,7 +288,8 @@ def laid_out(
     """The lines on as few pages as possible, balanced between the pages.
 
     Pages begin with a heading where that needs no extra page and leaves none but the last less
-    than half full. Lines are spaced as widely as the number of pages allows.
+    than half full, or much emptier than another. Lines are spaced as widely as the number of pages
+    allows.
     """
     count = len(paged(rows, LINE, bottom))
     some = SOLVED if solved else BY_HAND
@@ -309,7 +312,9 @@ def laid_out(
 
     if whole := held(bottom, whole=True):
         pages = balanced(whole, whole=True)
-        if all(page[-1][0] > HALF for page in pages[:-1]):
+        ends = [page[-1][0] for page in pages]
+        least = max(HALF, TOP + EVEN * (max(ends) - TOP))
+        if all(end > least for end in ends[:-1]):
             return pages
     return balanced(paged(rows, line, bottom), whole=False)
 

@@ -45,10 +45,18 @@ from graphkin.documents.positions_sheet import (
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import Field, Rect, clipped
 from graphkin.drawing.labels import FieldContent, Label
-from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, SharedLetter, Text
+from graphkin.drawing.marks import (
+    CircleMark,
+    LineMark,
+    Mark,
+    Page,
+    SharedLetter,
+    Text,
+    style_class,
+)
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import Extent, Scales, extent_of, preferred
-from graphkin.drawing.style import BRIEF
+from graphkin.drawing.style import BRIEF, COMPONENTS
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.drawing.symbols import PIN
 from graphkin.motion.cycle import columns_at
@@ -88,7 +96,11 @@ def plan_page(found: PositionSet, kind: str, kL: float, number: str) -> Page:
         *foot_line(found),
         *places_table(
             *(found, found.numbered),
-            [*scale_lines(found, kind), *exceptions(found, drawing, marks)],
+            [
+                *without_plan(found, kind),
+                *components(drawing, marks),
+                *exceptions(found, drawing, marks),
+            ],
             [*plan_rows(found, kind)],
         ),
         *proof(found),
@@ -134,17 +146,22 @@ def caption(found: PositionSet, drawing: Drawing, poles: str) -> Iterator[Mark]:
     yield from headline(found, f"{said};  {words(poles)}")
 
 
-def scale_lines(found: PositionSet, kind: str) -> list[str]:
-    """What the sheet says below its table: positions without a plan, kinds of components."""
+def without_plan(found: PositionSet, kind: str) -> Iterator[str]:
+    """What the sheet says of positions without a plan."""
     words = found.shown.alone.words
     some = {each.name for each in found.planned(kind)}
     asked = [e.name for e in found.numbered if e.plans and e.name not in some]
-    said = [*without(found)]
+    yield from without(found)
     if asked:
-        said.append(words("positions.not_asked", list=words("list_mark").join(asked)))
-    if kind == "acceleration":
-        said.append(words("positions.components"))
-    return said
+        yield words("positions.not_asked", list=words("list_mark").join(asked))
+
+
+def components(drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
+    """The patterns of the lines of those components that the plans have."""
+    drawn = {style_class(mark) for mark in marks}
+    said = [kind.pattern for kind in COMPONENTS if kind.look in drawn]
+    if said:
+        yield "; ".join(map(drawing.words, said))
 
 
 def without(found: PositionSet) -> Iterator[str]:

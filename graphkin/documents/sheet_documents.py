@@ -447,7 +447,7 @@ def plan_with_trials(drawing: Drawing, rect: Rect) -> list[Mark]:
     large = Layout(layout.mechanism, plan, {})
     board = right_board(drawing, replace(large, spans=spans(drawing, large)), "key")
     board.marks = [mark for mark in board.marks if mark.name != HEADING]
-    board.labels = [label for label in board.labels if not label.spare]
+    board.labels = [label for label in board.labels if label.letters or not label.spare]
     return [*plan_enlarged(drawing, rect, fits), *board.finish()]
 
 

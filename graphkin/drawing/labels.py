@@ -36,8 +36,8 @@ from graphkin.text.errors import PageError, Problem, message
 
 NUMBER = 2.3
 """Radius of the circle around a link's number, in mm."""
-SMALL = 1.8
-"""Height of the smallest lettering in mm."""
+LETTERS = 2.5
+"""Least height of letters in mm, and that of the notes at the foot of a field."""
 EDGE = 0.3
 """Clearance of the text inside that circle, in mm; longer names widen the circle."""
 GAP, LED = 0.9, 3.4
@@ -58,7 +58,7 @@ class Label(Struct, frozen=True):
     markup: str
     cls: str
     subject: XY | tuple[XY, XY]
-    height: float = 2.5
+    height: float = LETTERS
     name: str = ""
     step: int | None = None
     away: XY | None = None
@@ -85,11 +85,6 @@ class Label(Struct, frozen=True):
             held = hypot(width, bottom - top) / 2 < NUMBER - EDGE
             return 2 * NUMBER if held else width + NUMBER, 2 * NUMBER
         return width, bottom - top
-
-    @property
-    def shrinks(self) -> bool:
-        """Whether the label is a letter of the construction that may still be made smaller."""
-        return self.cls == "construction" and self.height > SMALL
 
     @property
     def look(self) -> str:
@@ -493,19 +488,16 @@ class FieldContent(Struct):
         return bool(blocked)
 
     def shorten(self, free: Sequence[bool], meanings: list[FootNote]) -> None:
-        """Make crowded construction letters smaller, all at one pin, and give others key numbers.
+        """Give crowded labels key numbers where these take less room than the names.
 
         The meanings of the key numbers go to the foot of the field.
         """
-        crowded = [i for i, spot_is_free in enumerate(free) if not spot_is_free]
-        letters = {self.labels[i].name[:1] for i in crowded if self.labels[i].shrinks}
         for i, label in enumerate(self.labels):
-            if label.shrinks and label.name[:1] in letters:
-                self.labels[i] = replace(label, height=SMALL)
-            elif i in crowded and label.priority < KEY:
-                key = f"{len(meanings) + 1})"
+            key = f"{len(meanings) + 1})"
+            keyed = replace(label, markup=key, height=LETTERS, priority=KEY, letters=())
+            if not free[i] and label.priority < KEY and keyed.size() < label.size():
                 meanings.append(FootNote(f"{key} {label.markup}", key))
-                self.labels[i] = replace(label, markup=key, height=SMALL, priority=KEY, letters=())
+                self.labels[i] = keyed
 
     def spots_of_new(
         self, foot: Sequence[Mark], before: Sequence[Label], spots: Sequence[Spot]
@@ -557,13 +549,13 @@ class FieldContent(Struct):
 
     def foot_places(self, lines: Sequence[NoteLine]) -> Iterator[list[Text]]:
         """The places, from left to right, for lines at the foot of the field."""
-        y = self.rect[3] - 2.5 - LEADING * (len(lines) - 1)
-        widest = max(extent(line.markup, 2.5)[0] for line in lines)
+        y = self.rect[3] - LETTERS - LEADING * (len(lines) - 1)
+        widest = max(extent(line.markup, LETTERS)[0] for line in lines)
         room = self.across - widest
         for away in range(0, max(1, int(room)), ASIDE):
             yield [
                 Text(
-                    *(self.rect[0] + 3 + away, y + LEADING * i, line.markup, "caption", 2.5),
+                    *(self.rect[0] + 3 + away, y + LEADING * i, line.markup, "caption", LETTERS),
                     name=NOTE,
                     letters=line.parts,
                 )
@@ -594,14 +586,14 @@ class NoteLine(NamedTuple):
 def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
     """Notes in lines of a width in mm, broken between notes if possible, else between words."""
     notes = listed_notes(notes)
-    lines = flowed_pieces([note.markup for note in notes], BETWEEN, width, 2.5)
-    if max((extent(line, 2.5)[0] for line, _ in lines), default=0.0) <= width:
+    lines = flowed_pieces([note.markup for note in notes], BETWEEN, width, LETTERS)
+    if max((extent(line, LETTERS)[0] for line, _ in lines), default=0.0) <= width:
         owners, pieces = [*range(len(notes))], [note.markup for note in notes]
     else:
         ended = [f"{note.markup}{BETWEEN.rstrip()}" for note in notes[:-1]] + [notes[-1].markup]
         all_words = [(i, word) for i, said in enumerate(ended) for word in words_of(said)]
         owners, pieces = [i for i, _ in all_words], [word for _, word in all_words]
-        lines = flowed_pieces(pieces, " ", width, 2.5)
+        lines = flowed_pieces(pieces, " ", width, LETTERS)
     return [NoteLine(line, tuple(parts(notes, owners, pieces, held))) for line, held in lines]
 
 
@@ -696,7 +688,7 @@ def in_turn(
     numbers are noted in the form ``noted``. Without it, PageError is raised where one has no place.
     """
     labels = board.labels
-    vectors = [i for i, label in enumerate(labels) if label.spare]
+    vectors = [i for i, label in enumerate(labels) if label.spare and label.cls not in HELPERS]
     helpers = [i for i, label in enumerate(labels) if label.cls in HELPERS]
     first = [i for i, label in enumerate(labels) if must_be_named(label)]
     left_out: list[int] = []
@@ -706,12 +698,16 @@ def in_turn(
         names = [(noted or labels)[i].markup for i in left_out]
         foot = board.footed([*said, *board.nameless(names)])
         found: dict[int, Spot] = {}
-        wanted = [[i for i in which if i not in left_out] for which in (first, vectors)]
-        for which in (*wanted, helpers):
-            found |= placed_after(board, foot, found, which)
+        for which in (first, vectors, helpers):
+            wanted = [i for i in which if i not in left_out]
+            found |= placed_after(board, foot, found, wanted)
         if not noted:
             refuse_crowds([labels[i] for i in first], [found[i] for i in first])
-        crowded = [i for which in wanted for i in which if not found[i].free]
+        crowded = [
+            i
+            for i, spot in found.items()
+            if not spot.free and (labels[i].spare or labels[i].cls not in HELPERS)
+        ]
         if not crowded:
             break
         left_out = sorted([*left_out, *crowded])

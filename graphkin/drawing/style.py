@@ -74,19 +74,30 @@ class Style(Struct, frozen=True):
 
 
 class VectorKind(Struct, frozen=True):
-    """A kind of acceleration component: its class, its sign, its style and its legend."""
+    """A kind of acceleration component: class, sign, style, legend, and pattern in words."""
 
     look: str
     sign: str
     style: Style
     legend: str
+    pattern: str
 
 
 COMPONENTS = (
-    VectorKind("normal", "ν", Style(0.4, RED, DASHED), "legend.normal"),
-    VectorKind("tangential", "τ", Style(0.4, RED, SHORT_CHAIN), "legend.tangential"),
-    VectorKind("coriolis", "c", Style(0.4, PURPLE, DOTTED), "legend.coriolis"),
-    VectorKind("sliding", "r", Style(0.4, TEAL, DOUBLE_CHAIN), "legend.along"),
+    VectorKind("normal", "ν", Style(0.4, RED, DASHED), "legend.normal", "positions.normal_lines"),
+    VectorKind(
+        "tangential",
+        "τ",
+        Style(0.4, RED, SHORT_CHAIN),
+        "legend.tangential",
+        "positions.tangential_lines",
+    ),
+    VectorKind(
+        "coriolis", "c", Style(0.4, PURPLE, DOTTED), "legend.coriolis", "positions.coriolis_lines"
+    ),
+    VectorKind(
+        "sliding", "r", Style(0.4, TEAL, DOUBLE_CHAIN), "legend.along", "positions.sliding_lines"
+    ),
 )
 """The components of accelerations."""
 BY_SIGN = {kind.sign: kind for kind in COMPONENTS}

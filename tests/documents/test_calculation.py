@@ -299,6 +299,14 @@ def test_pages_begin_with_a_heading_where_that_takes_no_more_of_them(lines, begi
     assert [row for page in pages for _, row in page] == rows
 
 
+@pytest.mark.parametrize("lines", [[22, 38], [21, 12, 30, 10], [24, 40, 30]], ids=str)
+def test_a_section_is_parted_where_a_page_would_be_much_emptier_than_the_next(lines):
+    rows = [CalculationRow("", heading=nth == 0) for count in lines for nth in range(count)]
+    pages = laid_out(rows, solved=True)
+    ends = [page[-1][0] - page[0][0] for page in pages]
+    assert min(ends[:-1]) > 0.75 * max(ends)
+
+
 def test_lines_to_be_filled_in_stand_as_far_apart_as_takes_no_more_pages():
     """Whatever their number: on the last page, too, the next wider distance would not hold them."""
     for count in range(1, 120):

@@ -3,6 +3,7 @@
 import re
 from functools import cache
 
+import numpy as np
 import pytest
 
 from graphkin.construction.result_tables import turning_rows, vector_rows
@@ -11,8 +12,10 @@ from graphkin.documents.sentences import sentences
 from graphkin.documents.sheet import Moved, data
 from graphkin.documents.sheet_documents import drawings_of, drawn_sheets, hand_out, proved, rest
 from graphkin.drawing.field import A4_SIZE, paper_of
-from graphkin.drawing.marks import Text, reach
+from graphkin.drawing.labels import LETTERS, strong_lines
+from graphkin.drawing.marks import LineMark, Text, reach, style_class
 from graphkin.drawing.richtext import plain
+from graphkin.drawing.shapes import struck
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
@@ -203,7 +206,7 @@ def test_what_fills_no_large_sheet_goes_on_on_a4(name):
 def test_points_of_many_trial_plans_have_their_names_where_the_plan_is_drawn_larger(kind):
     """They are not named on the sheet before; other letters stand on both.
 
-    Where so much meets that a letter of a trial has no place, it is left out: one in thirty.
+    Where only a leader across a strong line would reach a point, the note at the foot has its name.
     """
     first, *_, second = rings("it")[kind].pages
     drawing = drawings("plates-ring")[kind]
@@ -214,16 +217,31 @@ def test_points_of_many_trial_plans_have_their_names_where_the_plan_is_drawn_lar
             name
             for mark in page.marks
             if isinstance(mark, Text) and (mark.cls.startswith("label") or mark.name == "note")
-            for name in re.split(" [≡≈] |[0-9][)] |; ", mark.markup)
+            for name in re.split(" [≡≈] |[0-9][)] |; |: |, ", mark.markup)
         ]
         for page in (first, second)
     ]
     assert len(trials) > 20
-    assert max(named[1].count(name) for name in trials) == 1
-    assert sum(name not in named[1] for name in trials) <= len(trials) / 30
+    assert {named[1].count(name) for name in trials} == {1}
+    noted = " ".join(m.markup for m in second.marks if isinstance(m, Text) and m.name == "note")
+    assert sum(name in noted for name in trials) <= len(trials) / 5
     assert not trials & {*named[0]}
     own = {symbol(step.name) for _, step, _ in drawing.steps(drawing.plane) if step.name} - trials
     assert own & {*named[0]} & {*named[1]}
+
+
+def test_no_leader_to_a_minor_point_crosses_a_strong_line_and_other_points_have_their_letters():
+    both = drawings("plates-coupled")
+    *_, page = drawn_sheets(both, "key")[1].pages
+    texts = {m.markup for m in page.marks if isinstance(m, Text) and m.height > LETTERS}
+    assert {
+        symbol(f"{point}′") for point in ("o", "a", "p1", "p2", "p3", "q1", "q2", "q3")
+    } <= texts
+    leaders = [m for m in page.marks if isinstance(m, LineMark) and style_class(m) == "leader"]
+    minor = [m for m in leaders if "trial" in m.cls or m.name.startswith("n_")]
+    ends = np.array([(m.x1, m.y1, m.x2, m.y2) for m in minor])
+    assert len(minor) > 5
+    assert not struck(ends, strong_lines(page.marks)).any()
 
 
 @pytest.mark.parametrize("language", ["ro", "it"] if EVERY else ["it"])

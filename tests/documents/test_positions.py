@@ -226,6 +226,16 @@ def test_every_mark_of_a_position_has_a_name_and_a_class():
                 assert mark.name, mark
 
 
+@pytest.mark.parametrize("name", ["crank-rocker", "shaper"])
+def test_the_sheet_explains_the_lines_of_those_components_that_its_plans_have(name):
+    page = sheets(name)["acceleration"]
+    drawn = {style_class(mark) for mark in page.marks}
+    text = " ".join(said(page))
+    words = {"normal": "normal", "tangential": "tangential", "coriolis": "Coriolis"}
+    words["sliding"] = "along the guide"
+    assert {look for look, word in words.items() if word in text} == drawn & {*words}
+
+
 def test_the_longest_plan_decides_one_scale_for_all():
     """The crank's pin has one speed, so its vector has one length in all plans."""
     at = circles(sheets("shaper")["velocity"])

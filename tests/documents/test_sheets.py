@@ -26,7 +26,7 @@ from graphkin.documents.sheet import NAME as DATA
 from graphkin.documents.signs import mechanism_signs, round_below, sign_of
 from graphkin.drawing.field import A3
 from graphkin.drawing.free_space import Space
-from graphkin.drawing.labels import SMALL, FieldContent
+from graphkin.drawing.labels import LETTERS, FieldContent
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, reach
 from graphkin.drawing.richtext import CLEAR, plain, runs, signs
 from graphkin.drawing.style import OWN_LINES, style_of
@@ -372,6 +372,10 @@ def test_components_that_are_laid_off_and_those_that_close_the_way_share_their_f
 # --- enlarged details ----------------------------------------------------------------------------
 
 
+INDICES = 1.8
+"""Least height of indices in mm."""
+
+
 def circles(page):
     """The circles of the details on a mechanism: the small ones and the large ones."""
     marks = page.marks["mechanism"]
@@ -385,7 +389,15 @@ def test_each_small_circle_has_its_large_one_and_indices_there_can_be_read(page)
     for mark in (*page.marks["mechanism"], *page.marks["plan"]):
         if isinstance(mark, Text) and kind_of(mark) == "label" and not mark.name:
             sizes = [run.size for run in runs(mark.markup, mark.height)]
-            assert mark.height * min(sizes) / max(sizes) > SMALL - 0.1, mark.markup
+            assert mark.height * min(sizes) / max(sizes) > INDICES - 0.1, mark.markup
+
+
+@pytest.mark.parametrize("name", ["gears-ravigneaux", "valve-train"])
+@pytest.mark.parametrize("kind", ["velocity", "acceleration"])
+def test_letters_and_key_numbers_of_crowded_fields_are_not_too_small(name, kind):
+    page = drawn(name, None, kind)
+    texts = [m for some in page.marks.values() for m in some if isinstance(m, Text)]
+    assert [m.markup for m in texts if m.height < LETTERS] == []
 
 
 def test_a_pin_at_which_three_triangles_meet_is_shown_enlarged():

@@ -243,20 +243,31 @@ def put_pole(plot: Plot, number: int, step: Step, value: Any) -> None:
 
 
 def name_point(
-    plot: Plot, number: int, name: str, at: XY, radius: float, look: str = "", height: float = 3.5
+    plot: Plot,
+    number: int,
+    name: str,
+    at: XY,
+    radius: float,
+    look: str = "",
+    *,
+    minor: bool = False,
 ) -> None:
-    """Label a point; coinciding points share one label: o ≡ a or, for near points, o ≈ a."""
+    """Label a point; coinciding points share one label: o ≡ a or, for near points, o ≈ a.
+
+    The letters of minor points are smaller; sentences and tables name these points, too.
+    """
     board, look = plot.board, look or plot.colour
     for i, (x, y) in board.lettered.items():
         apart = hypot(x - at[0], y - at[1])
         if apart < TINY:
             label, joint = board.labels[i], "≡" if apart < SAME else "≈"
             letters = (*label.letters, SharedLetter(name, plot.drawing.symbol(name), f" {joint} "))
-            board.labels[i] = label.of_letters(letters)
+            board.labels[i] = replace(label.of_letters(letters), spare=label.spare and minor)
             return
     board.lettered[len(board.labels)] = at
     letters = (SharedLetter(name, plot.drawing.symbol(name)),)
-    label = Label("", look, at, height, "", number, priority=2, radius=radius)
+    height = 2.5 if minor else 3.5
+    label = Label("", look, at, height, "", number, priority=2, radius=radius, spare=minor)
     board.labels.append(label.of_letters(letters))
 
 
@@ -422,7 +433,7 @@ class PaperCanvas(Struct, frozen=True):
         place = self.plot.field(at)
         mark = CircleMark(*place, DOT, f"point {self.plot.colour}", name, self.number)
         self.plot.board.marks.append(mark)
-        name_point(self.plot, self.number, name, place, DOT, self.plot.colour, 2.5)
+        name_point(self.plot, self.number, name, place, DOT, minor=True)
 
     @stroke
     def segment(self, start: Any, end: Any) -> None:
@@ -542,7 +553,7 @@ class PaperCanvas(Struct, frozen=True):
         if self.step.name:
             place = self.plot.field(self.value(self.number))
             self.circled(place, ASIDE, DOT)
-            name_point(self.plot, self.number, self.step.name, place, DOT, OWN_LINES, 2.5)
+            name_point(self.plot, self.number, self.step.name, place, DOT, OWN_LINES, minor=True)
 
     @stroke
     def leg(self, name: str, look: str, start: Any, end: Any) -> None:
