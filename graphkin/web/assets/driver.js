@@ -117,6 +117,10 @@ function flat_crossings() {
     .map(([step]) => step);
 }
 
+/** The crossings that each step of a plan needs. */
+const behind = new Map(
+  data.hangs.flatMap(([crossings, steps]) => steps.map(step => [String(step), crossings])),
+);
 let cleared = "";
 
 /** Remove marks that depend on missing crossings, or all marks, from the drawings. */
@@ -126,9 +130,9 @@ function clear_off(all, flat) {
   cleared = now;
   for (const { of } of sheets) {
     for (const [step, marks] of of) {
-      const gone =
-        step in data.hangs && (all || flat.some(crossing => data.hangs[step].includes(crossing)));
-      for (const mark of marks) mark.classList.toggle("void", gone);
+      const crossings = behind.get(step),
+        gone = crossings && (all || flat.some(crossing => crossings.includes(crossing)));
+      for (const mark of marks) mark.classList.toggle("void", Boolean(gone));
     }
   }
 }
