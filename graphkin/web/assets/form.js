@@ -1,11 +1,12 @@
 // The form of a lab: it reads answers as `graphkin grade` does, keeps them in this browser,
 // saves them as a file and opens such a file again. Nothing is sent anywhere.
+import { clean, HEADS, quoted, rows_of, save_file, TABLE } from "./answer_files.js";
+
 const form = document.querySelector("form.answers");
 const told = JSON.parse(form.dataset.form);
 const NUMBER = new RegExp("^(?:" + told.number + ")");
 const MISTYPED = new RegExp(told.mistyped);
 const RUNS = /(^|;[\s"]*)(?=[=+\-@])/g; // before text that a spreadsheet takes for a formula
-const HEADS = ["field", "value"];
 const SHOWN = 30;
 const NAMED = 8; // largest number of fields named in one sentence
 const memory = `${told.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
@@ -18,11 +19,6 @@ const file = form.querySelector(".file");
 const say = (key, values = {}) =>
   told.words[key].replace(/\{(\w+)\}/g, (gap, name) => (name in values ? values[name] : gap));
 const shown = text => (text.length <= SHOWN ? text : text.slice(0, SHOWN - 1) + "…");
-const clean = text =>
-  text
-    .replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "")
-    .trim()
-    .normalize("NFC");
 const id = () => told.id || clean(own.value);
 
 // The error of an answer, as in graphkin.classroom.grading.answer_numbers; empty if it can be read.
@@ -138,7 +134,7 @@ function recall() {
 // A cell that no spreadsheet executes, quoted where necessary.
 function cell(text, read) {
   const safe = read ? text : text.replace(RUNS, "$1'");
-  return /[",;\t\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+  return quoted(safe);
 }
 
 function table() {
@@ -159,11 +155,7 @@ function save() {
   }
   const stem = told.id ? told.stem : `${told.stem}-${id().replace(/[^\w-]+/g, "_")}`;
   const name = `${stem}-answers.csv`;
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([table()], { type: "text/csv;charset=utf-8" }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  save_file(name, table(), TABLE);
   keep();
   const bad = fields.filter(judge);
   const empty = fields.filter(field => !clean(field.value));
@@ -189,29 +181,11 @@ function list(key, some, more) {
   status.append(` ${before}`, ...named, more ? ", …" : "", after);
 }
 
-// The rows of a CSV text, with any of the usual separators.
-function rowsOf(text) {
-  const first = text.split(/\r?\n/, 1)[0];
-  const separator = [";", ",", "\t"].find(sign => first.includes(sign)) ?? ",";
-  const rows = [[""]];
-  let quoted = false;
-  for (let i = 0; i < text.length; i++) {
-    const sign = text[i];
-    const row = rows.at(-1);
-    if (quoted && sign === '"' && text[i + 1] === '"') row[row.length - 1] += text[++i];
-    else if (sign === '"') quoted = !quoted;
-    else if (!quoted && sign === separator) row.push("");
-    else if (!quoted && sign === "\n") rows.push([""]);
-    else row[row.length - 1] += sign;
-  }
-  return rows.map(row => row.map(text => clean(text).replace(/(^|;[\s"]*)'(?=[=+\-@])/g, "$1")));
-}
-
 async function open() {
   const chosen = file.files[0];
   file.value = "";
   if (!chosen) return;
-  const rows = rowsOf(await chosen.text());
+  const rows = rows_of(await chosen.text());
   const known = new Set(Object.keys(answers()));
   const found = rows.slice(1).filter(([name, text]) => name && text !== undefined);
   const given = found.find(([name]) => name === "id")?.[1] ?? "";

@@ -154,6 +154,9 @@ function typed_ways(line) {
   return way ? [way] : others;
 }
 
+/** Whether lines can be typed here: where only fingers point, the field is hidden. */
+export const is_typed_here = () => byId("turn-type").checkVisibility();
+
 /** Show on the drawing and in words what a typed line would draw. */
 export function show_typed() {
   const ways = typed_ways(byId("turn-typed").value);
@@ -217,7 +220,9 @@ function why_unread(line) {
 }
 
 const STICKS = ["perpendicular", "parallel", "triangle", "compass"]; // of which several are drawn one after the other
-const escaped = text => text.replace(/[&<>"]/g, sign => `&#${sign.charCodeAt(0)};`);
+
+/** A text as markup. */
+export const escaped = text => text.replace(/[&<>"]/g, sign => `&#${sign.charCodeAt(0)};`);
 
 export function forget_typed() {
   byId("turn-typed").value = "";

@@ -1,4 +1,5 @@
 // Your turn: hints, help, the score sheet, and the keys and clicks during a turn.
+import { save_file } from "./answer_files.js";
 import { html_element } from "./elements.js";
 import { follow_address } from "./address.js";
 import { draw_move } from "./choosing.js";
@@ -55,14 +56,8 @@ async function save_score() {
   const seal = code
     ? await seal_of(`${code}\n${JSON.stringify([id, told.from, steps, told.left])}`)
     : "";
-  const link = html_element("a"),
-    file = `${stem}-turn.json`;
-  link.href = URL.createObjectURL(
-    new Blob([JSON.stringify({ ...told, seal })], { type: "application/json" }),
-  );
-  link.download = file;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  const file = `${stem}-turn.json`;
+  save_file(file, JSON.stringify({ ...told, seal }), "application/json");
   byId("turn-say").textContent = worded("saved", { file });
 }
 
