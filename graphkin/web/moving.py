@@ -146,7 +146,7 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "led": led,
         "grips": [list(grips(s, sheet, here, driven)) for s, (sheet, here) in both],
         "figures": list(figures_of(tracing, sheets[0].drawing)),
-        "stands": driver_output(tracing),
+        "drawn_at": driver_output(tracing),
         "derived": list(derived(tracing, sheets[0].drawing)),
         "rects": rects,
         "fields": fields,
@@ -338,8 +338,8 @@ def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]
 
 def source(data: dict[str, Any], tracing: Tracing) -> str:
     """The construction, the data, and the code that places the marks, in one expression."""
-    told = data | {"marks": list(short_ids(data["marks"]))}
-    text = json.dumps(told, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    written = data | {"marks": list(short_ids(data["marks"]))}
+    text = json.dumps(written, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
     lines = [
         "const graphkinMotion = (() => {",
         '"use strict";',

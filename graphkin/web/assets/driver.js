@@ -89,7 +89,7 @@ function place_driver(x) {
   if (!state.dead) read();
   tell_rates();
   page.classList.toggle("silent", state.dead);
-  warn(byId("told"), crossings_of(state.step));
+  warn(byId("narration"), crossings_of(state.step));
   halos();
 }
 
@@ -142,12 +142,12 @@ function note(shown) {
   const { name, moved: words } = byId("read").dataset,
     changed = changed_figures();
   const own = state.x !== motion.start || !changed.length;
-  const list = (place, told) =>
+  const list = (place, wording_of) =>
     [
       ...(own ? [`${name} = ${place}`] : []),
-      ...changed.map(one => `${one.name} = ${told(one)}`),
+      ...changed.map(one => `${one.name} = ${wording_of(one)}`),
     ].join(", "); // markup of symbols, escaped by its maker
-  const here = list(shown, ({ k }) => knob(k).told());
+  const here = list(shown, ({ k }) => knob(k).wording());
   const start = list(place_of(motion.start), one => plain(motion.drawn[one.k]) + one.unit);
   for (const one of notes) {
     one.innerHTML = words.replace("{place}", here).replace("{start}", start);

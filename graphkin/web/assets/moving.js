@@ -216,7 +216,7 @@ export function moving(data, run, close = () => true) {
     derived: data.derived,
     figure,
     read: (i, at) => (reckon(at), y[i]),
-    stands: data.stands,
+    drawn_at: data.drawn_at,
     drawn: figures.map(({ shows }) => (reckon(data.start), y[shows])),
     set: draw,
     extent,

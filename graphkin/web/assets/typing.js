@@ -161,8 +161,8 @@ export const is_typed_here = () => byId("turn-type").checkVisibility();
 export function show_typed() {
   const ways = typed_ways(byId("turn-typed").value);
   show_aim(ways.length ? { ways: ways.slice(0, 1) } : null);
-  const told = ways.map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`);
-  byId("turn-would").innerHTML = told.join(" · ");
+  const offers = ways.map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`);
+  byId("turn-would").innerHTML = offers.join(" · ");
 }
 
 /** Make the move that is typed; the action stays chosen for lines typed without one. */

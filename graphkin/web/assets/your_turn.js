@@ -52,12 +52,12 @@ export function show_score() {
 async function save_score() {
   const [stem, id, code] = turning.owner;
   const steps = turn.log.map(({ step, how, wrong }) => [plain_words(moves[step].name), how, wrong]);
-  const told = { graphkin_turn: 1, id, from: turn.from, steps, left: moves_left().length };
+  const record = { graphkin_turn: 1, id, from: turn.from, steps, left: moves_left().length };
   const seal = code
-    ? await seal_of(`${code}\n${JSON.stringify([id, told.from, steps, told.left])}`)
+    ? await seal_of(`${code}\n${JSON.stringify([id, record.from, steps, record.left])}`)
     : "";
   const file = `${stem}-turn.json`;
-  save_file(file, JSON.stringify({ ...told, seal }), "application/json");
+  save_file(file, JSON.stringify({ ...record, seal }), "application/json");
   byId("turn-say").textContent = worded("saved", { file });
 }
 
