@@ -40,7 +40,7 @@ def rates(
             body, number = marks_of_link(protocol, said.sheet, link)
             one: dict[str, object] = {
                 "row": f"{drawing.rate.letter}{link}",
-                "told": spoken_rate(drawing, link),
+                "text": spoken_rate(drawing, link),
                 "sense": float(drawing.turning(link) or 0.0),
                 "body": body,
                 "number": number,

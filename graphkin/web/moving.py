@@ -146,7 +146,7 @@ def put_together(tracing: Tracing, sheets: Sequence[ScreenSheet]) -> Moving | No
         "led": led,
         "grips": [list(grips(s, sheet, here, driven)) for s, (sheet, here) in both],
         "figures": list(figures_of(tracing, sheets[0].drawing)),
-        "stands": driver_output(tracing),
+        "drawn_at": driver_output(tracing),
         "derived": list(derived(tracing, sheets[0].drawing)),
         "rects": rects,
         "fields": fields,
@@ -176,10 +176,10 @@ def followed(
     ``led`` collects, by a label's record, the records of the leader and the circle that go with it.
 
     Each field has the index of its first record, its room, and the box of the marks that do not
-    move. ``seen`` lists the marks that must be in sight: index of the record, with the reach
-    across and down where there is any. ``labels`` lists the same for labels, large ones first,
-    then in the order of their steps, with a fourth number from ``MarkBindings.sides``. ``off``
-    lists the records of labels kept off a point.
+    move. ``reach`` gives by record how far a mark reaches across and down from its place. ``seen``
+    lists the records of marks that must be in sight. ``labels`` lists the records of labels, large
+    ones first, then in the order of their steps, with a number from ``MarkBindings.sides``.
+    ``off`` lists the records of labels kept off a point.
     """
     angles, first = tracing.driven.angles(tracing.x, tracing.known), 0
     fields = ((sheet.left, sheet.layout.mechanism), (sheet.right, sheet.layout.plan))
@@ -188,17 +188,20 @@ def followed(
         binder = FieldBinder(places, field, rects)
         following = MarkBindings(binder, sheet.layout, marks, angles)
         still, seen, off, began = set(marks), [], [], len(records)
-        labels: list[tuple[float, int, list[float]]] = []
+        reach: dict[int, tuple[float, float]] = {}
+        labels: list[tuple[float, int, tuple[int, int]]] = []
         bound: dict[int, int] = {}
         for k, record in following.records():
-            still.discard(marks[k])
-            if following.in_sight(marks[k], record):
-                reach = half(marks[k])
-                seen.append([len(records), *reach] if any(reach) else len(records))
+            mark = marks[k]
+            still.discard(mark)
+            if in_sight := following.in_sight(mark, record):
+                seen.append(len(records))
             if following.keeps_off(k, record):
                 off.append(len(records))
-            if record[0] in "tb" and isinstance(mark := marks[k], Text):
-                own = [len(records), *half(mark), following.sides(k, record)]
+            if (in_sight or isinstance(mark, Text)) and any(size := half(mark)):
+                reach[len(records)] = size
+            if record[0] in "tb" and isinstance(mark, Text):
+                own = len(records), following.sides(k, record)
                 labels.append((-mark.height, -1 if mark.step is None else mark.step, own))
                 if with_it := following.going_before(k, bound):
                     led[len(records)] = with_it
@@ -209,7 +212,7 @@ def followed(
             more[f"{before}h"] = (before, element, cls)
             records.append([f"{before}h", *record])
         found.append({"first": began, "room": binder.room, "still": box_of(still), "seen": seen})
-        found[-1] |= {"off": off, "labels": [own for *_, own in sorted(labels)]}
+        found[-1] |= {"reach": reach, "off": off, "labels": [own for *_, own in sorted(labels)]}
         first += len(marks)
     return found
 
@@ -335,8 +338,8 @@ def crossings(tracing: Tracing, sheet: ScreenSheet) -> Iterator[tuple[int, int]]
 
 def source(data: dict[str, Any], tracing: Tracing) -> str:
     """The construction, the data, and the code that places the marks, in one expression."""
-    told = data | {"marks": list(short_ids(data["marks"]))}
-    text = json.dumps(told, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
+    written = data | {"marks": list(short_ids(data["marks"]))}
+    text = json.dumps(written, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
     lines = [
         "const graphkinMotion = (() => {",
         '"use strict";',

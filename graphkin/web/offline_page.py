@@ -19,7 +19,7 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import font_face
 from graphkin.drawing.style import BRIEF, Ink, in_variables
 from graphkin.web.protocol import Timed
-from graphkin.writers.svg import LETTERING, element, number, parted_text, rules
+from graphkin.writers.svg import LETTERING, element, number, parted_text, shared_rules
 from graphkin.writers.templates import from_template
 
 if TYPE_CHECKING:
@@ -150,7 +150,7 @@ def ink_sheet(marks: Iterable[Mark], ink: Ink) -> str:
     """The style sheet of some marks, with fonts. A shaft keeps its width while it moves."""
     marks = [replace(mark, cls=mark.cls.removesuffix(f" {BRIEF}")) for mark in marks]
     return "\n".join(
-        (font_face(False), font_face(True), LETTERING, *map(themed, rules(marks, ink)))
+        (font_face(False), font_face(True), LETTERING, *map(themed, shared_rules(marks, ink)))
     )
 
 

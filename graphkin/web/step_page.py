@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import gc
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from math import degrees, floor, log10
 from typing import TYPE_CHECKING
@@ -506,7 +506,7 @@ def record(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, o
         "sides": protocol.sides,
         "letters": {step: marked_up(name) for step, name in protocol.letters.items()},
         "tints": protocol.tints,
-        "hangs": protocol.hangs,
+        "hangs": alike(protocol.hangs),
         "aside": protocol.aside,
         "squares": protocol.squares,
         "rates": rates(sheets, protocol),
@@ -523,3 +523,11 @@ def record(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, o
             for sheet in sheets
         },
     }
+
+
+def alike(hangs: Mapping[int, tuple[int, ...]]) -> list[tuple[tuple[int, ...], list[int]]]:
+    """The steps that need the same crossings, with these crossings, each written once."""
+    found: dict[tuple[int, ...], list[int]] = {}
+    for step, crossings in hangs.items():
+        found.setdefault(crossings, []).append(step)
+    return [*found.items()]

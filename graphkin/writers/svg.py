@@ -124,17 +124,17 @@ def selector(cls: str) -> str:
     return "".join(f".{name}" for name in cls.split())
 
 
-def line_rule(style: Style, open_only: bool) -> str:
-    """Write the line style of a rule; open lines and arcs are never filled."""
+def line_rule(style: Style, open_only: bool) -> tuple[str, ...]:
+    """Write the inks and width of a line, and its form; open lines and arcs are never filled."""
     fill = "none" if open_only or not style.fill else style.fill
     if not style.width:
-        return f"fill:{fill};stroke:none"
+        return (f"fill:{fill};stroke:none",)
     ends = "round" if style.round else "butt"
     corners = "round" if style.round else "miter"
     dash = " ".join(map(number, style.dash)) or "none"
     return (
-        f"fill:{fill};stroke:{style.colour};stroke-width:{number(style.width)};"
-        f"stroke-dasharray:{dash};stroke-linecap:{ends};stroke-linejoin:{corners}"
+        f"fill:{fill};stroke:{style.colour};stroke-width:{number(style.width)}",
+        f"stroke-dasharray:{dash};stroke-linecap:{ends};stroke-linejoin:{corners}",
     )
 
 
@@ -145,20 +145,37 @@ def tag(mark: Mark) -> str:
     return TAGS[type(mark)]
 
 
+def kinds(marks: Iterable[Mark]) -> Iterable[tuple[str, str]]:
+    """The elements and classes of some marks, in order of first use."""
+    return dict.fromkeys((tag(mark), mark.cls) for mark in marks)
+
+
 def rules(marks: Iterable[Mark], ink: Ink, weight: float = 1.0) -> list[str]:
     """Write one rule for each element and class used, in order of first use."""
     return [
-        rule(*kind, ink, weight) for kind in dict.fromkeys((tag(mark), mark.cls) for mark in marks)
+        f"{name}{selector(cls)}{{{';'.join(rule(name, cls, ink, weight))}}}"
+        for name, cls in kinds(marks)
     ]
 
 
+def shared_rules(marks: Iterable[Mark], ink: Ink) -> list[str]:
+    """Write each style once, with all elements and classes that have it.
+
+    The order does not matter: a mark's own classes outrank any of them alone.
+    """
+    found: dict[str, list[str]] = {}
+    for name, cls in kinds(marks):
+        for style in rule(name, cls, ink):
+            found.setdefault(style, []).append(f"{name}{selector(cls)}")
+    return [f"{','.join(own)}{{{style}}}" for style, own in found.items()]
+
+
 @lru_cache(maxsize=1024)
-def rule(name: str, cls: str, ink: Ink, weight: float = 1.0) -> str:
-    """Write the rule for elements of a name and class; circles and polygons have an interior."""
+def rule(name: str, cls: str, ink: Ink, weight: float = 1.0) -> tuple[str, ...]:
+    """Write the style of elements of a name and class; circles and polygons have an interior."""
     style = style_of(cls, ink, weight)
     open_only = name not in ("circle", "polygon")
-    body = f"fill:{style.colour}" if name == "text" else line_rule(style, open_only)
-    return f"{name}{selector(cls)}{{{body}}}"
+    return (f"fill:{style.colour}",) if name == "text" else line_rule(style, open_only)
 
 
 def style_sheet(page: Page, ink: Ink = "colour") -> str:

@@ -98,7 +98,7 @@ class Hand:
     @property
     def told(self) -> str:
         """What is told at the pointer."""
-        return self.page.inner_text("#told")
+        return self.page.inner_text("#tip")
 
     @property
     def text(self) -> str:

@@ -251,7 +251,7 @@ class FirefoxHand(Hand):
 
     @property
     def told(self) -> str:
-        return str(self.window.run("return document.getElementById('told').textContent"))
+        return str(self.window.run("return document.getElementById('narration').textContent"))
 
     @property
     def text(self) -> str:

@@ -123,7 +123,7 @@ def test_the_focus_stays_where_a_step_takes_its_element_away(opened: Opened, pag
     focused = "document.activeElement.id"
     page.locator("#from a", has_text="B").focus()
     page.keyboard.press("Enter")
-    assert (step_of(page), page.evaluate(focused)) == (2, "told")
+    assert (step_of(page), page.evaluate(focused)) == (2, "narration")
     for button, step in (("previous", 1), ("next", page.evaluate(STEPS) - 1)):
         page.evaluate(f"location.hash = '#step={step}'")
         page.evaluate(PAINTED)
@@ -566,7 +566,7 @@ def test_words_that_have_no_room_are_scrolled_by_keys(opened: Opened, pages: Pat
     for step in (0, 3, 9, 15):
         page.evaluate(f"location.hash = '#step={step}'")
         page.evaluate(PAINTED)
-        scrolls, tab = page.locator("#told").evaluate(
+        scrolls, tab = page.locator("#narration").evaluate(
             "box => [box.scrollHeight > box.clientHeight + 1, box.tabIndex]"
         )
         assert tab == (0 if scrolls else -1), step

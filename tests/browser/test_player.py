@@ -224,29 +224,29 @@ DOTS = """() => {
 def test_keys_and_clicks_on_a_curve_play_and_move_and_a_velocity_bears_its_name(page_of):
     page = page_of("pump", **STILL)
     low, high = (float(page.get_attribute("#at", end)) for end in ("min", "max"))
-    start = page.inner_text("#told")
+    start = page.inner_text("#position")
     assert start == "44.0°"
     page.keyboard.press("ArrowRight")
-    assert float(page.inner_text("#told")[:-1]) > 44
+    assert float(page.inner_text("#position")[:-1]) > 44
     page.keyboard.press("Space")
     assert moved(page) > 0
     page.keyboard.press("Space")
     assert moved(page) == 0
     page.keyboard.press("Home")
-    assert page.inner_text("#told") == start
+    assert page.inner_text("#position") == start
     page.focus("#speed")
     page.keyboard.press("ArrowDown")
     assert page.input_value("#speed") == "2"
-    assert page.inner_text("#told") == start
+    assert page.inner_text("#position") == start
     chart = page.locator("#curves figure > svg").first
     box = chart.bounding_box()
     chart.click(position={"x": box["width"] * (44 + (320 - 60) / 2) / 320, "y": box["height"] / 2})
     assert float(page.input_value("#at")) == pytest.approx((low + high) / 2, abs=1.5)
     chart.focus()
-    before = page.inner_text("#told")
+    before = page.inner_text("#position")
     page.keyboard.press("ArrowRight")
-    assert page.inner_text("#told") != before
-    assert chart.get_attribute("aria-valuetext") == page.inner_text("#told")
+    assert page.inner_text("#position") != before
+    assert chart.get_attribute("aria-valuetext") == page.inner_text("#position")
     for part in (0.1, 0.4, 0.7):
         put(page, low + part * (high - low))
         off, text, line = page.evaluate(

@@ -448,9 +448,9 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     dead = moving.locator("#notable button").first
     dead.click()
     assert dead.get_attribute("title").startswith("−32.6°: dead point")
-    low = moving.locator("#told").inner_text()
+    low = moving.locator("#position").inner_text()
     moving.locator("#play").click()
-    moving.locator("#told").filter(has_not_text=re.compile(f"^{re.escape(low)}$")).wait_for()
+    moving.locator("#position").filter(has_not_text=re.compile(f"^{re.escape(low)}$")).wait_for()
     moving.locator("#play").click()
     assert not page.is_visible("#motion-driver")
     five_bar = scene_files.examples()["five-bar"].read_text("utf-8")

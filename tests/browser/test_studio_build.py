@@ -45,10 +45,10 @@ def test_a_newcomer_builds_the_offset_slider_crank(hand):
     assert not barred(hand.page)
     crank = 0.5 * hand.place("A")
     hand.click("driver", crank)
-    hand.page.wait_for_selector("#told:not([hidden])")
+    hand.page.wait_for_selector("#tip:not([hidden])")
     assert "is driven already" in hand.told
     hand.take("bar")
-    assert hand.page.locator("#told").is_hidden()
+    assert hand.page.locator("#tip").is_hidden()
     upper = hand.page.locator("#canvas").bounding_box()["y"]
     hand.driver(crank, 90)
     assert abs(hand.page.locator("#canvas").bounding_box()["y"] - upper) < 0.1  # of a dot
@@ -114,9 +114,9 @@ def test_a_pin_dragged_onto_another_is_joined_with_it_or_told_why_not(hand):
     hand.pivot(220)
     text = hand.text
     hand.drag("bar", 0, 220)
-    hand.page.wait_for_selector("#told:not([hidden])")
-    assert "both pins belong to the frame" in hand.page.inner_text("#told")
-    box, (x, y) = hand.page.locator("#told").bounding_box(), hand.pixel(220)
+    hand.page.wait_for_selector("#tip:not([hidden])")
+    assert "both pins belong to the frame" in hand.page.inner_text("#tip")
+    box, (x, y) = hand.page.locator("#tip").bounding_box(), hand.pixel(220)
     assert abs(box["y"] - y) < 40 and abs(box["x"] - x) < 200
     assert hand.text == text
     hand.bar("O1", 40 + 70j)
@@ -130,8 +130,8 @@ def test_a_pin_dragged_onto_another_is_joined_with_it_or_told_why_not(hand):
     assert set(joined_links["3"].points) == {"A", "B"}
     joined = hand.text
     hand.drag("move", hand.place("A"), hand.place("O2"))
-    hand.page.wait_for_selector("#told:not([hidden])")
-    assert "would share two pins" in hand.page.inner_text("#told")
+    hand.page.wait_for_selector("#tip:not([hidden])")
+    assert "would share two pins" in hand.page.inner_text("#tip")
     assert hand.text == joined
     hand.settled(lambda: hand.page.click("#undo"))
     assert "A-C" in hand.text

@@ -56,6 +56,7 @@ d
 """
 """The pump's position and velocity plan as they are typed; after a stroke the result to take."""
 RO = words("ro")
+RING_SCENE = Path(__file__).parents[2] / "examples" / "scenes" / "gears-ring.toml"
 RING = """
 ray O φ
 off O φ OP
@@ -435,13 +436,53 @@ def test_the_question_is_read_before_the_board(opened: Opened, folder: Path, siz
 
 
 def test_a_planetary_gear_is_drawn_to_its_end_by_keys(opened: Opened, run: Run, tmp_path: Path):
-    scene = Path(__file__).parents[2] / "examples" / "scenes" / "gears-ring.toml"
-    run("sheet", scene, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
+    run("sheet", RING_SCENE, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
     page = fresh(opened, tmp_path / "gears-ring-task.html")
     typed(page, RING)
     (log,) = page.evaluate("Object.values(localStorage)")
-    given = board_given([each.drawing for each in screen_sheets(load(str(scene)), "en", "task")])
+    given = board_given(
+        [each.drawing for each in screen_sheets(load(str(RING_SCENE)), "en", "task")]
+    )
     drawn, right = (replayed(given, one) for one in (log, GEARS))
     assert drawn.named.keys() == right.named.keys()
     for letter in right.named:
         assert abs(drawn.value_of(letter) - right.value_of(letter)) < 1e-9
+
+
+def test_a_drawing_without_a_form_is_saved_and_opened(opened: Opened, run: Run, tmp_path: Path):
+    """It is a table as the answers of a lab are; what it replaces can be had back."""
+    run("sheet", RING_SCENE, "-o", tmp_path, "--view", "task", "--format", "html", "--lang", "en")
+    task = tmp_path / "gears-ring-task.html"
+    page = fresh(opened, task)
+    typed(page, RING)
+    (log,) = page.evaluate("Object.values(localStorage)")
+    with page.expect_download(timeout=5000) as saved:
+        page.locator("#drawing-save").click()
+    file = tmp_path / saved.value.suggested_filename
+    saved.value.save_as(file)
+    assert file.name == f"{task.stem}-drawing.csv"
+    with file.open(newline="", encoding="utf-8") as rows:
+        assert [*csv.reader(rows)] == [["field", "value"], ["drawing", log]]
+    other = fresh(opened, task)
+    typed(other, "ray O 50")
+    (before,) = other.evaluate("Object.values(localStorage)")
+    other.locator("#drawing-file").set_input_files(file)
+    said = other.locator("#turn-say")
+    moves = log.count(BETWEEN) + 1
+    opened_words = words("en")("board.opened", file=file.name, number=moves)
+    said.filter(has_text=opened_words).wait_for(timeout=5000)
+    assert other.evaluate("Object.values(localStorage)") == [log]
+    other.locator("#turn-undo").click()
+    assert other.evaluate("Object.values(localStorage)") == [before]
+    (tmp_path / "empty.csv").write_text("field,value\r\n", encoding="utf-8")
+    other.locator("#drawing-file").set_input_files(tmp_path / "empty.csv")
+    said.filter(has_text=words("en")("board.no_drawing", file="empty.csv")).wait_for(timeout=5000)
+    assert other.evaluate("Object.values(localStorage)") == [before]
+
+
+def test_typing_is_spoken_of_where_it_is_possible(opened: Opened, folder: Path):
+    by_keys = RO("board.by_keys")
+    desk = fresh(opened, page_of(folder)).locator("#turn-say").inner_text()
+    phone = fresh(opened, page_of(folder), has_touch=True, is_mobile=True)
+    assert desk == f"{RO('board.begin')} {by_keys}"
+    assert phone.locator("#turn-say").inner_text() == RO("board.begin")

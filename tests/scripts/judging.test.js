@@ -94,6 +94,11 @@ test("of two results the other one is told from a wrong one", () => {
   assert.deepEqual(drawn("lay_off", ["o", "va"], [], 1), { is: "other", step: 10 });
 });
 
+test("the other result of a move that is made is drawn already", () => {
+  const { drawn } = bar_on_guide();
+  assert.deepEqual(drawn("lay_off", ["o", "va"], [10], 1), { is: "already", step: 10 });
+});
+
 test("a parallel in place of a perpendicular is wrong", () => {
   const { drawn } = bar_on_guide();
   assert.deepEqual(drawn("parallel", ["o", "AB"], [10]), { is: "wrong" });

@@ -11,10 +11,8 @@ function two_points() {
     still: null,
     first: 0,
     off: [],
-    seen: [
-      [0, 1, 1],
-      [1, 1, 1],
-    ],
+    seen: [0, 1],
+    reach: { 0: [1, 1], 1: [1, 1], 2: [3, 2], 3: [3, 2] },
   };
   const data = {
     size: 6,
@@ -36,8 +34,8 @@ function two_points() {
         {
           ...field,
           labels: [
-            [2, 3, 2, 1],
-            [3, 3, 2, 1],
+            [2, 1],
+            [3, 1],
           ],
         },
       ],

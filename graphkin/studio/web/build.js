@@ -9,7 +9,7 @@ import { corners, onPicture, scale, shift, under } from "./underlay.js";
 
 const canvas = find("canvas");
 const svg = canvas.querySelector("svg");
-const told = find("told");
+const tip = find("tip");
 const toggle = find("build");
 const NEAR = 10; // px within which a pin or a bar is meant
 const WIDE = 160; // steps of the grid across an empty field, and up it
@@ -381,10 +381,10 @@ function ringed(name) {
 /** Show a message next to the pointer until the next action. */
 function tellAt(event, words) {
   const box = canvas.getBoundingClientRect();
-  told.hidden = !words;
-  told.textContent = words;
-  told.style.left = `${Math.min(event.clientX - box.left + 14, box.width * 0.6)}px`;
-  told.style.top = `${event.clientY - box.top + 14}px`;
+  tip.hidden = !words;
+  tip.textContent = words;
+  tip.style.left = `${Math.min(event.clientX - box.left + 14, box.width * 0.6)}px`;
+  tip.style.top = `${event.clientY - box.top + 14}px`;
 }
 
 /** Request an action; the text changes as if it were written. */
@@ -571,10 +571,10 @@ function explain() {
 }
 
 find("tools").addEventListener("change", () => {
-  told.hidden = true;
+  tip.hidden = true;
   explain();
 });
-for (const name of ["pointerdown", "keydown"]) addEventListener(name, () => (told.hidden = true));
+for (const name of ["pointerdown", "keydown"]) addEventListener(name, () => (tip.hidden = true));
 for (const field of ["speed", "span"])
   find(field).addEventListener("focus", () => find(field).select());
 find("tools").addEventListener("submit", event => event.preventDefault());

@@ -17,7 +17,7 @@ async function read(chosen) {
 
 /** Import what is chosen or pasted; `take` gets the text of a scene, its file name and the notes. */
 export function importing(take) {
-  const told = find("import-said");
+  const status = find("import-said");
   const fields = () => {
     const words = Object.fromEntries(
       ["fixed", "drive", "slides"].map(key => [key, find(`import-${key}`).value]),
@@ -25,20 +25,20 @@ export function importing(take) {
     return { ...words, ...(file ?? { pasted: find("import-pasted").value }) };
   };
   async function bring(given = fields()) {
-    told.textContent = "";
+    status.textContent = "";
     try {
       const { problems, drawing, text, name, notes } = await ask("bring", given);
       find("import-drawing").hidden = !drawing && find("import-drawing").hidden;
       if (problems.length) {
-        told.textContent = problems.map(sentence).join(" ");
-        return told.textContent;
+        status.textContent = problems.map(sentence).join(" ");
+        return status.textContent;
       }
       find("opening").close();
       await take(text, name, notes);
     } catch (error) {
-      told.textContent = error.message;
+      status.textContent = error.message;
     }
-    return told.textContent;
+    return status.textContent;
   }
   find("import-file").addEventListener("change", async () => {
     const field = find("import-file"),
@@ -50,14 +50,14 @@ export function importing(take) {
       find("import-drawing").hidden = true;
       await bring();
     } catch (error) {
-      told.textContent = error.message;
+      status.textContent = error.message;
     }
   });
   find("import-pasted").addEventListener("input", () => (file = null));
   find("import").addEventListener("click", () => bring());
   find("opening").addEventListener("close", () => {
     file = null;
-    told.textContent = "";
+    status.textContent = "";
     find("import-pasted").value = "";
     find("import-drawing").hidden = true;
   });
@@ -69,7 +69,7 @@ export function importing(take) {
     if (!wrong) return;
     find("open").click();
     find("import-pasted").value = pasted;
-    told.textContent = wrong;
+    status.textContent = wrong;
   });
 }
 

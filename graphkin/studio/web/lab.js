@@ -115,8 +115,8 @@ async function attempt() {
   if (!report) return;
   tried = now;
   room.classList.remove("old");
-  const told = [say("studio.fair_of", report), report.exact].filter(Boolean).join(" ");
-  fairness(told, report.fair < report.count);
+  const summary = [say("studio.fair_of", report), report.exact].filter(Boolean).join(" ");
+  fairness(summary, report.fair < report.count);
   find("class-tables").innerHTML = report.tables;
   students = report.students;
   map(report);

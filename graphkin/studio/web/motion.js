@@ -6,7 +6,7 @@ import { ask, find, onSpeaking, say } from "./talk.js";
 const REST = 500; // ms without a change before the page is drawn again
 const toggle = find("move");
 const frame = find("moving");
-const told = find("motion-told");
+const status = find("motion-status");
 const driver = find("motion-driver");
 let scene = () => ({}); // the scene as the page sends it
 let timer = 0;
@@ -52,18 +52,18 @@ async function moving() {
   const now = JSON.stringify(fields);
   if (now === shown) return;
   const own = ++number;
-  told.textContent = say("studio.drawing_motion");
+  status.textContent = say("studio.drawing_motion");
   try {
     const answer = await ask("motion", fields);
     if (own !== number) return;
-    told.textContent = answer.problems.map(sentence).join(" ");
+    status.textContent = answer.problems.map(sentence).join(" ");
     offer(answer.drivers, page);
     if (!answer.page) return;
     frame.src = `${answer.page}#step=1`; // step by step from the first
     frame.hidden = false;
     shown = now;
   } catch (error) {
-    told.textContent = error.message;
+    status.textContent = error.message;
   }
 }
 

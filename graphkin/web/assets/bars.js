@@ -17,8 +17,9 @@ export function bars(sheet, sizes, boxes) {
       long = alike * scales[i] < SHORTEST * most ? round(most / scales[i]) : alike;
     const [across, high] = sizes[i],
       [, , width, height] = boxes[i];
-    const told = { bar: long, wide: width, high: height };
-    for (const [name, value] of Object.entries(told)) style(figure, `--${name}`, value.toFixed(2));
+    const measures = { bar: long, wide: width, high: height };
+    for (const [name, value] of Object.entries(measures))
+      style(figure, `--${name}`, value.toFixed(2));
     style(figure, "--shown", `${high || across}px`);
     figure.querySelector(".mm").textContent = written(
       long,

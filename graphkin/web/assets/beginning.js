@@ -5,9 +5,12 @@ import { sheets } from "./sheets.js";
 
 const ghosts = data.ghosts.map(k => byId(`m0-${k}`));
 
-/** Put the task into the empty plan, and make its numbers draggable. */
+/** Put the task and the data into the empty plan, and make their numbers draggable. */
 export function show_task() {
+  const list = byId("given").querySelector("ul").cloneNode(true);
   sheets[0].fields[1].svg.parentElement.append(...byId("task").content.children);
+  for (const item of list.children) item.removeAttribute("id");
+  byId("brief").append(list);
   if (motion) make_figures();
 }
 

@@ -1,14 +1,15 @@
 // The board of a task page: where its moves are kept, its keys and buttons, and its beginning.
+import { draw_anew, offer_files } from "./board_files.js";
 import { show_turn } from "./board_marks.js";
 import { byId, page, state, style } from "./board_page.js";
-import { draw_log, follow_letters, log_of, tell_turn, turn, worded } from "./board_state.js";
+import { follow_letters, log_of, tell_turn, turn, worded } from "./board_state.js";
 import { draw_move } from "./choosing.js";
 import { forget_own_lines, keep_past, redo, undo } from "./history.js";
 import { choose_action, forget_inputs } from "./picking.js";
 import { sheets } from "./sheets.js";
 import { EVENTS, in_turn } from "./turn_events.js";
 import { light_up } from "./turn_marks.js";
-import { draw_typed, show_typed } from "./typing.js";
+import { draw_typed, is_typed_here, show_typed } from "./typing.js";
 import { look, show_all } from "./zoom.js";
 
 const kept_in = document.querySelector("form.answers input[name=drawing]");
@@ -39,19 +40,21 @@ function kept_log() {
   }
 }
 
+/** The first message: how one draws, by keys too where there are any. */
+const beginning = () => `${worded("begin")} ${is_typed_here() ? worded("by_keys") : ""}`.trim();
+
 /** Draw what was kept, in place of what is drawn. */
 function recall_board() {
   const log = kept_log();
   if (log === log_of()) return;
-  forget_own_lines();
-  Object.assign(turn, { lines: [], log: [], past: [], future: [], fresh: [] });
-  const whole = draw_log(log);
+  const whole = draw_anew(log);
+  turn.future = [];
   turn.past = turn.lines.map((_, i) => ({
     done: [],
     log: turn.log.slice(0, i),
     lines: turn.lines.slice(0, i),
   })); // each move can be taken back
-  tell_turn(worded(whole ? "begin" : "broken", { number: turn.lines.length }));
+  tell_turn(whole ? beginning() : worded("broken", { number: turn.lines.length }));
   show_turn();
 }
 
@@ -66,7 +69,7 @@ function turn_again() {
     forget_inputs();
     show_turn();
   }
-  tell_turn(worded(sure ? "begin" : "sure"));
+  tell_turn(sure ? beginning() : worded("sure"));
   turn.sure = !sure;
 }
 
@@ -95,10 +98,12 @@ for (const [name, act] of Object.entries({ "turn-form": draw_move, "turn-type": 
 byId("turn-typed").addEventListener("input", show_typed);
 for (const button of byId("palette").children)
   button.addEventListener("click", () => choose_action(button.dataset.action));
-kept_in?.addEventListener("change", recall_board); // another file of answers was opened
+if (kept_in)
+  kept_in.addEventListener("change", recall_board); // another file of answers was opened
+else offer_files();
 addEventListener("resize", fit);
 follow_letters();
 fit();
-tell_turn(worded("begin"));
+tell_turn(beginning());
 if (kept_log()) recall_board();
 else show_turn();

@@ -63,7 +63,7 @@ export function check_move(action, given, found, plane, _other) {
 }
 
 /**
- * The key of the reason why nothing can be drawn; empty where there is none to be told.
+ * The key of the reason why nothing can be drawn; empty where there is nothing to say.
  * @param {string} action
  * @param {string[]} given
  */

@@ -56,7 +56,7 @@ export function construction_of(data, run, close) {
     }
   }
 
-  /** Whether everything stands where the scene has it. */
+  /** Whether everything is where the scene has it. */
   const asDrawn = () => !led && Math.abs(reckoned - data.start) < 1e-9;
   return { x, y, figures, figure, reckon, asDrawn };
 }

@@ -44,9 +44,9 @@ function chart(unit, some, series, places) {
     one.append(...row.querySelector("dt").cloneNode(true).childNodes);
     caption.append(one, " ");
   });
-  const told = document.createElement("span");
-  told.innerHTML = some[0].querySelector(".unit").innerHTML;
-  caption.append(told);
+  const wording = document.createElement("span");
+  wording.innerHTML = some[0].querySelector(".unit").innerHTML;
+  caption.append(wording);
   const [low, high] = bounds(series.flat().filter(Number.isFinite));
   const u = x => LEFT + ((x - data.low) / span) * (WIDE - LEFT - RIGHT);
   const v = y => HIGH - FOOT - ((y - low) / (high - low)) * (HIGH - TOP - FOOT);
@@ -131,7 +131,7 @@ function places_of(size) {
 }
 
 /** A line of the grid with its number. */
-function tick(svg, look, at, told) {
+function tick(svg, look, at, wording) {
   const across = look === "across";
   const ends = across
     ? { x1: at, x2: at, y1: TOP, y2: HIGH - FOOT }
@@ -142,7 +142,7 @@ function tick(svg, look, at, told) {
       ? { x: at, y: HIGH - FOOT + 12, "text-anchor": "middle" }
       : { x: LEFT - 5, y: at + 3, "text-anchor": "end" },
   );
-  text.textContent = told;
+  text.textContent = wording;
   svg.append(make("line", { class: look, ...ends }), text);
 }
 
@@ -170,13 +170,13 @@ function listen(svg) {
 }
 
 /** Set the cursors at the driver's position, and a dot on each curve. */
-export function point(values, told) {
+export function point(values, wording) {
   for (const { svg, some, cursor, dots, u, v } of drawn) {
     const x = u(state.x);
     cursor.setAttribute("x1", x);
     cursor.setAttribute("x2", x);
     svg.setAttribute("aria-valuenow", state.x);
-    svg.setAttribute("aria-valuetext", told);
+    svg.setAttribute("aria-valuetext", wording);
     some.forEach((row, i) => {
       const value = values[row.dataset.row];
       dots[i].setAttribute("visibility", Number.isFinite(value) ? "visible" : "hidden");

@@ -89,7 +89,7 @@ function place_driver(x) {
   if (!state.dead) read();
   tell_rates();
   page.classList.toggle("silent", state.dead);
-  warn(byId("told"), crossings_of(state.step));
+  warn(byId("narration"), crossings_of(state.step));
   halos();
 }
 
@@ -117,6 +117,10 @@ function flat_crossings() {
     .map(([step]) => step);
 }
 
+/** The crossings that each step of a plan needs. */
+const behind = new Map(
+  data.hangs.flatMap(([crossings, steps]) => steps.map(step => [String(step), crossings])),
+);
 let cleared = "";
 
 /** Remove marks that depend on missing crossings, or all marks, from the drawings. */
@@ -126,9 +130,9 @@ function clear_off(all, flat) {
   cleared = now;
   for (const { of } of sheets) {
     for (const [step, marks] of of) {
-      const gone =
-        step in data.hangs && (all || flat.some(crossing => data.hangs[step].includes(crossing)));
-      for (const mark of marks) mark.classList.toggle("void", gone);
+      const crossings = behind.get(step),
+        gone = crossings && (all || flat.some(crossing => crossings.includes(crossing)));
+      for (const mark of marks) mark.classList.toggle("void", Boolean(gone));
     }
   }
 }
@@ -138,12 +142,12 @@ function note(shown) {
   const { name, moved: words } = byId("read").dataset,
     changed = changed_figures();
   const own = state.x !== motion.start || !changed.length;
-  const list = (place, told) =>
+  const list = (place, wording_of) =>
     [
       ...(own ? [`${name} = ${place}`] : []),
-      ...changed.map(one => `${one.name} = ${told(one)}`),
+      ...changed.map(one => `${one.name} = ${wording_of(one)}`),
     ].join(", "); // markup of symbols, escaped by its maker
-  const here = list(shown, ({ k }) => knob(k).told());
+  const here = list(shown, ({ k }) => knob(k).wording());
   const start = list(place_of(motion.start), one => plain(motion.drawn[one.k]) + one.unit);
   for (const one of notes) {
     one.innerHTML = words.replace("{place}", here).replace("{start}", start);

@@ -22,7 +22,7 @@ export function knob(k) {
       whole: motion.whole,
       now: () => state.x,
       put: move,
-      told: () => place_of(state.x),
+      wording: () => place_of(state.x),
       at: (id, x) => motion.place(id, x),
     };
   const shown = () =>
@@ -33,7 +33,7 @@ export function knob(k) {
     whole: false,
     now: () => state.figures[k],
     put: value => set_figure(k, value),
-    told: shown,
+    wording: shown,
     at: (id, value) => motion.place(id, state.x, k, value),
   };
 }
@@ -59,8 +59,8 @@ function set_figure(k, value) {
 
 /** The driver position that some figures set; the current position if they set none. */
 export function led_to(some, x) {
-  return motion.stands >= 0 && some.some(({ moves }) => moves > 0)
-    ? motion.read(motion.stands, x)
+  return motion.drawn_at >= 0 && some.some(({ moves }) => moves > 0)
+    ? motion.read(motion.drawn_at, x)
     : x;
 }
 
@@ -120,7 +120,7 @@ function write_figure(element, name, k) {
   return element;
 }
 
-const one_told = []; // the text that each figure shows
+const one_worded = []; // the text that each figure shows
 let rewritten = 0; // number of changed figures when the derived data were last written
 let derived = []; // elements of data derived from figures, as drawn and as rewritten
 
@@ -146,13 +146,13 @@ export function make_figures() {
 export function tell_figures() {
   led_by.forEach((numbers, i) => {
     const one = knob(i - 1),
-      told = one.told();
-    if (one_told[i] === told) return;
-    one_told[i] = told;
+      wording = one.wording();
+    if (one_worded[i] === wording) return;
+    one_worded[i] = wording;
     for (const number of numbers) {
-      number.textContent = told;
+      number.textContent = wording;
       number.setAttribute("aria-valuenow", Number(one.now().toFixed(4)));
-      number.setAttribute("aria-valuetext", told);
+      number.setAttribute("aria-valuetext", wording);
     }
   });
   const changed = changed_figures().length;

@@ -1,14 +1,15 @@
 // The form of a lab: it reads answers as `graphkin grade` does, keeps them in this browser,
 // saves them as a file and opens such a file again. Nothing is sent anywhere.
+import { clean, HEADS, quoted, rows_of, save_file, TABLE } from "./answer_files.js";
+
 const form = document.querySelector("form.answers");
-const told = JSON.parse(form.dataset.form);
-const NUMBER = new RegExp("^(?:" + told.number + ")");
-const MISTYPED = new RegExp(told.mistyped);
+const rules = JSON.parse(form.dataset.form);
+const NUMBER = new RegExp("^(?:" + rules.number + ")");
+const MISTYPED = new RegExp(rules.mistyped);
 const RUNS = /(^|;[\s"]*)(?=[=+\-@])/g; // before text that a spreadsheet takes for a formula
-const HEADS = ["field", "value"];
 const SHOWN = 30;
 const NAMED = 8; // largest number of fields named in one sentence
-const memory = `${told.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
+const memory = `${rules.memory} ${location.origin}${location.pathname}`; // a copy elsewhere has its own
 const fields = [...form.querySelectorAll("[name]:not([type=hidden])")];
 const drawing = form.querySelector("[name=drawing]"); // the moves made on the board, which keeps them here
 const own = form.querySelector("#answers-id");
@@ -16,25 +17,20 @@ const status = form.querySelector(".status");
 const file = form.querySelector(".file");
 
 const say = (key, values = {}) =>
-  told.words[key].replace(/\{(\w+)\}/g, (gap, name) => (name in values ? values[name] : gap));
+  rules.words[key].replace(/\{(\w+)\}/g, (gap, name) => (name in values ? values[name] : gap));
 const shown = text => (text.length <= SHOWN ? text : text.slice(0, SHOWN - 1) + "…");
-const clean = text =>
-  text
-    .replace(/[\p{Cc}\p{Cf}\p{Cs}]/gu, "")
-    .trim()
-    .normalize("NFC");
-const id = () => told.id || clean(own.value);
+const id = () => rules.id || clean(own.value);
 
 // The error of an answer, as in graphkin.classroom.grading.answer_numbers; empty if it can be read.
 function wrong(text, unit, name) {
   const stripped = clean(text);
-  if (!stripped || told.blanks.includes(stripped.toLowerCase())) return "";
-  const found = stripped.length <= told.longest ? NUMBER.exec(stripped) : null;
+  if (!stripped || rules.blanks.includes(stripped.toLowerCase())) return "";
+  const found = stripped.length <= rules.longest ? NUMBER.exec(stripped) : null;
   if (!found || !names(found.groups.label, name))
     return say("no_number", { text: shown(stripped) });
   const rest = stripped.slice(found[0].length);
   const written = plainUnit(rest);
-  const known = told.units[unit];
+  const known = rules.units[unit];
   const factor = Object.keys(known).find(each => each.toLowerCase() === written.toLowerCase());
   if (written && !factor) {
     if (MISTYPED.test(rest)) return say("no_number", { text: shown(stripped) });
@@ -43,13 +39,13 @@ function wrong(text, unit, name) {
   }
   const value =
     Number(`${digits(found.groups)}e${power(found.groups)}`) * (written ? known[factor] : 1);
-  return value < told.largest ? "" : say("too_large", { text: shown(stripped) });
+  return value < rules.largest ? "" : say("too_large", { text: shown(stripped) });
 }
 
 // Whether a label before a number, if there is one, may name the quantity of a field.
 function names(label, name) {
   const letter = name.split("_")[0];
-  const known = told.letters[letter] || [letter.toLowerCase()];
+  const known = rules.letters[letter] || [letter.toLowerCase()];
   return !label || known.some(begins => label.toLowerCase().startsWith(begins));
 }
 
@@ -64,16 +60,16 @@ function digits({ digits: all, part, parts }) {
 
 /** @param {Record<string, string>} groups the groups of NUMBER */
 function power({ power: plain, raised }) {
-  return [...(plain || raised || "0")].map(sign => told.raised[sign] || sign).join("");
+  return [...(plain || raised || "0")].map(sign => rules.raised[sign] || sign).join("");
 }
 
 function plainUnit(text) {
   const latin = text.replace(
     /[А-Яа-я]+\.?/g,
-    part => told.russian[part.replace(".", "").toLowerCase()] || part,
+    part => rules.russian[part.replace(".", "").toLowerCase()] || part,
   );
   const plain = [...latin.replace(/[\s()[\]^*·]/g, "")]
-    .map(sign => told.raised[sign] || sign)
+    .map(sign => rules.raised[sign] || sign)
     .join("");
   return plain.replaceAll("sec", "s").replace(/([\p{L}\p{N}])[.,;]$|^;$/u, "$1");
 }
@@ -138,17 +134,17 @@ function recall() {
 // A cell that no spreadsheet executes, quoted where necessary.
 function cell(text, read) {
   const safe = read ? text : text.replace(RUNS, "$1'");
-  return /[",;\t\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+  return quoted(safe);
 }
 
 function table() {
-  const rows = [HEADS, ["id", cell(id(), told.id || /^[+-]?\d+$/.test(id()))]];
+  const rows = [HEADS, ["id", cell(id(), rules.id || /^[+-]?\d+$/.test(id()))]];
   for (const field of fields) {
     const read = !wrong(field.value, field.dataset.unit ?? "", field.name);
     rows.push([field.name, cell(clean(field.value), read)]);
   }
   if (drawing?.value) rows.push([drawing.name, cell(drawing.value, true)]);
-  return rows.map(row => row.join(told.separator) + "\r\n").join("");
+  return rows.map(row => row.join(rules.separator) + "\r\n").join("");
 }
 
 function save() {
@@ -157,13 +153,9 @@ function save() {
     own.focus();
     return;
   }
-  const stem = told.id ? told.stem : `${told.stem}-${id().replace(/[^\w-]+/g, "_")}`;
+  const stem = rules.id ? rules.stem : `${rules.stem}-${id().replace(/[^\w-]+/g, "_")}`;
   const name = `${stem}-answers.csv`;
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([table()], { type: "text/csv;charset=utf-8" }));
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  save_file(name, table(), TABLE);
   keep();
   const bad = fields.filter(judge);
   const empty = fields.filter(field => !clean(field.value));
@@ -181,37 +173,19 @@ function save() {
 
 // Add a sentence with a list of fields, each by its symbol and unit as in its label.
 function list(key, some, more) {
-  const [before, after] = told.words[key].split("{list}");
+  const [before, after] = rules.words[key].split("{list}");
   const named = some.flatMap((field, i) => {
     const symbol = form.querySelector(`label[for="${field.id}"] .symbol`).cloneNode(true);
-    return [i ? ", " : "", symbol, ` (${field.dataset.unit || told.sense})`];
+    return [i ? ", " : "", symbol, ` (${field.dataset.unit || rules.sense})`];
   });
   status.append(` ${before}`, ...named, more ? ", …" : "", after);
-}
-
-// The rows of a CSV text, with any of the usual separators.
-function rowsOf(text) {
-  const first = text.split(/\r?\n/, 1)[0];
-  const separator = [";", ",", "\t"].find(sign => first.includes(sign)) ?? ",";
-  const rows = [[""]];
-  let quoted = false;
-  for (let i = 0; i < text.length; i++) {
-    const sign = text[i];
-    const row = rows.at(-1);
-    if (quoted && sign === '"' && text[i + 1] === '"') row[row.length - 1] += text[++i];
-    else if (sign === '"') quoted = !quoted;
-    else if (!quoted && sign === separator) row.push("");
-    else if (!quoted && sign === "\n") rows.push([""]);
-    else row[row.length - 1] += sign;
-  }
-  return rows.map(row => row.map(text => clean(text).replace(/(^|;[\s"]*)'(?=[=+\-@])/g, "$1")));
 }
 
 async function open() {
   const chosen = file.files[0];
   file.value = "";
   if (!chosen) return;
-  const rows = rowsOf(await chosen.text());
+  const rows = rows_of(await chosen.text());
   const known = new Set(Object.keys(answers()));
   const found = rows.slice(1).filter(([name, text]) => name && text !== undefined);
   const given = found.find(([name]) => name === "id")?.[1] ?? "";
@@ -220,7 +194,7 @@ async function open() {
   const count = Object.values(values).filter(Boolean).length;
   const said = { file: chosen.name, id: shown(given), count };
   const ours = HEADS.every((head, i) => rows[0][i] === head);
-  if (ours && told.id && given && given !== told.id) {
+  if (ours && rules.id && given && given !== rules.id) {
     status.textContent = say("other", said);
   } else if (!ours || !Object.keys(values).length) {
     status.textContent = say("no_file", said);

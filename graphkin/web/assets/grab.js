@@ -54,7 +54,7 @@ function grip(svg, group, one) {
   const handle = group.appendChild(svg_element("circle"));
   const { low, high } = one.by,
     words = byId("move").dataset;
-  const told = {
+  const attributes = {
     class: one.driven ? "grip driven" : "grip",
     tabindex: 0,
     role: "slider",
@@ -62,7 +62,7 @@ function grip(svg, group, one) {
     "aria-valuemin": low,
     "aria-valuemax": high,
   };
-  for (const [name, value] of Object.entries(told)) handle.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes)) handle.setAttribute(name, value);
   handle.addEventListener("pointerdown", event => take(event, svg, { ...one, handle }));
   handle.addEventListener("keydown", event => nudge(event, one.by));
   return { ...one, handle };
@@ -73,7 +73,7 @@ export function follow_pins() {
   for (const { pin, handle, by } of grips[here()] ?? []) {
     for (const axis of ["cx", "cy"]) handle.setAttribute(axis, pin.getAttribute(axis));
     handle.setAttribute("aria-valuenow", Number(by.now().toFixed(4)));
-    handle.setAttribute("aria-valuetext", by.told());
+    handle.setAttribute("aria-valuetext", by.wording());
     handle.toggleAttribute("hidden", pin.matches(".later,.void,[visibility]"));
   }
 }

@@ -72,7 +72,10 @@ export function verdicts_of({ moves, picks, places }, palette, order) {
     const made = [...done].filter(step => moves[step]);
     const before = giving(drawn, drawn.found, made, left);
     if (before !== undefined) return { is: "already", step: before };
-    const meant = drawn.other && giving(drawn, [drawn.other], open, left);
+    const other = drawn.other ? [drawn.other] : [];
+    const turned = giving(drawn, other, made, left);
+    if (turned !== undefined) return { is: "already", step: turned };
+    const meant = giving(drawn, other, open, left);
     if (meant !== undefined) return { is: "other", step: meant };
     const point = leads_to(drawn, open, done);
     return point === undefined ? { is: "wrong" } : { is: "leads", step: point };

@@ -28,10 +28,10 @@ export function moving(data, run, close = () => true) {
 
   const extent = (at, sheet, side, times = 1) => {
     if (!reckon(at)) return null;
-    const { room, still, seen } = data.fields[sheet][side];
+    const { room, still, seen, reach } = data.fields[sheet][side];
     const box = still ? [...still] : [Infinity, Infinity, -Infinity, -Infinity];
-    for (const one of seen) {
-      const [i, across = 0, down = 0] = [one].flat();
+    for (const i of seen) {
+      const [across, down] = reach[i] ?? [0, 0];
       const [kind, shown, ...rest] = grown(i, times),
         size = kind === "t" || kind === "b" ? times : 1;
       if (shown >= 0 && !(y[shown] > 0)) continue;
@@ -69,14 +69,12 @@ export function moving(data, run, close = () => true) {
   const arranged = () => {
     const found = new Map();
     if (asDrawn()) return found;
-    for (const { labels } of data.fields.flat()) {
+    for (const { labels, reach } of data.fields.flat()) {
       const placed = [];
-      for (const label of labels) {
-        const [i, ...rest] = label,
-          own = grown(i),
+      for (const [i, sides] of labels) {
+        const own = grown(i),
           other = overturned(own);
-        const [across, down] = rest.map(size => size * growth[i]),
-          sides = rest[2];
+        const [across, down] = reach[i].map(size => size * growth[i]);
         if (own[1] >= 0 && !(y[own[1]] > 0)) continue;
         let box = free(own, [across, down], placed);
         if (!box && sides && (box = free(other, [across, down], placed))) found.set(i, other);
@@ -164,8 +162,9 @@ export function moving(data, run, close = () => true) {
       );
     return own.map(([along, off]) => [kind, shown, o, d, along, off, ...rest]);
   };
-  const labels = (sheet, side) =>
-    data.fields[sheet][side].labels.map(([i, across, down, turns]) => {
+  const labels = (sheet, side) => {
+    const { labels: own_labels, reach } = data.fields[sheet][side];
+    return own_labels.map(([i, turns]) => {
       const [id] = data.marks[i],
         own = grown(i),
         shown = own[1] < 0 || y[own[1]] > 0;
@@ -173,12 +172,13 @@ export function moving(data, run, close = () => true) {
       return {
         i,
         id,
-        half: [across, down],
+        half: reach[i],
         records,
         spots: records.map(([kind, , ...rest]) => middles[kind](...rest)),
         led: data.led[i] ?? [],
       };
     });
+  };
 
   // The place of a circle at a driver position; null where nothing closes.
   const circles = new Map(
@@ -216,7 +216,7 @@ export function moving(data, run, close = () => true) {
     derived: data.derived,
     figure,
     read: (i, at) => (reckon(at), y[i]),
-    stands: data.stands,
+    drawn_at: data.drawn_at,
     drawn: figures.map(({ shows }) => (reckon(data.start), y[shows])),
     set: draw,
     extent,

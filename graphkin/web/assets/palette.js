@@ -184,7 +184,7 @@ export function palette_of(record, all_done, { ACTIONS, drawn_by }) {
 
   const results = (action, inputs) => results_by_way(action, inputs).flat();
 
-  /** The results that stand in each way where a result stands in the first one: they look alike. */
+  /** The results of each way at the place of a result of the first one: they look alike. */
   function likewise(action, inputs, value) {
     const [first, ...others] = results_by_way(action, inputs),
       place = first.findIndex(one => flat(one).every((part, i) => part === flat(value)[i]));

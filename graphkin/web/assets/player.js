@@ -195,17 +195,17 @@ function show(x) {
     data.vectors.forEach((vectors, i) => name(vectors, taken[2 * i + 1] ?? []));
     data.panes.forEach(seat);
   }
-  const told = written(state.x, span > 50 ? 1 : span > 5 ? 2 : 3) + data.unit;
+  const wording = written(state.x, span > 50 ? 1 : span > 5 ? 2 : 3) + data.unit;
   slider.value = state.x;
-  slider.setAttribute("aria-valuetext", told);
-  byId("told").textContent = told;
+  slider.setAttribute("aria-valuetext", wording);
+  byId("position").textContent = wording;
   const values = ok ? motion.values(state.x) : {};
   for (const row of rows) {
     const value = values[row.dataset.row];
     row.hidden = value === undefined;
     if (value !== undefined) tell(row, value);
   }
-  point(values, told);
+  point(values, wording);
 }
 
 // Write size and sense of a quantity.

@@ -14,25 +14,25 @@ const BESIDE = matchMedia("(min-width:60.01rem) and (min-height:34.01rem)"); // 
 
 /** Put the words next to the drawing, or between the drawing and the keys. */
 function seat_words() {
-  const told = byId("told"),
+  const narration = byId("narration"),
     place = BESIDE.matches ? byId("page") : byId("dock");
-  if (told.parentElement !== place) place.prepend(told);
+  if (narration.parentElement !== place) place.prepend(narration);
 }
 
 /** Let keys scroll the words where they do not fit. */
 export function told_by_keys() {
-  const told = byId("told");
-  told.tabIndex = told.scrollHeight > told.clientHeight + 1 ? 0 : -1;
+  const narration = byId("narration");
+  narration.tabIndex = narration.scrollHeight > narration.clientHeight + 1 ? 0 : -1;
 }
 
 /** Reserve the room. */
 export function fit() {
   seat_words();
-  const told = byId("told").cloneNode(true),
+  const narration = byId("narration").cloneNode(true),
     values = byId("read")?.cloneNode(true);
-  tallest(told, "told", [0, ...places.map((_, i) => i + 1)], step => {
-    tell(told, step);
-    names(told.querySelector("#from"), sources(step ? own[step] : []));
+  tallest(narration, "narration", [0, ...places.map((_, i) => i + 1)], step => {
+    tell(narration, step);
+    names(narration.querySelector("#from"), sources(step ? own[step] : []));
   });
   if (values) {
     values.querySelector("#place").textContent = byId("place").dataset.dead;

@@ -34,9 +34,9 @@ export function say() {
     : data.task[0];
   byId("count").textContent = count;
   slider.setAttribute("aria-valuetext", count);
-  tell(byId("told"), state.step);
+  tell(byId("narration"), state.step);
   tell_rates();
-  byId("told").scrollTop = 0;
+  byId("narration").scrollTop = 0;
   told_by_keys();
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
   list_in_sight();
@@ -70,11 +70,12 @@ export const opened_by_hand = () => {
 /** Scroll the reason into view after the reader has opened it. */
 export function reason_in_sight() {
   fit();
-  const told = byId("told"),
+  const narration = byId("narration"),
     reason = byId("reason");
-  const hidden = reason.offsetTop + reason.offsetHeight - told.offsetTop - told.clientHeight;
+  const hidden =
+    reason.offsetTop + reason.offsetHeight - narration.offsetTop - narration.clientHeight;
   if (by_hand && byId("because").open && hidden > 0)
-    told.scrollTop = Math.min(hidden, reason.offsetTop - told.offsetTop);
+    narration.scrollTop = Math.min(hidden, reason.offsetTop - narration.offsetTop);
   by_hand = false;
 }
 
@@ -85,14 +86,14 @@ function current(element, is, word) {
 }
 
 /** Write the sentence of a step, its reasons, its note, and its flattest crossing. */
-export function tell(told, step) {
+export function tell(narration, step) {
   const { say: words, why, aside } = places[step - 1] ?? {};
-  told.querySelector("#sentence").replaceChildren(...(words ? copies(words) : [data.task[1]]));
-  told.querySelector("#reason").replaceChildren(...lines(why));
-  told.querySelector("#because").hidden = !why;
-  told.querySelector("#behind").hidden = !step;
-  told.querySelector("#aside").replaceChildren(...(aside ? copies(aside) : []));
-  warn(told, crossings_of(step));
+  narration.querySelector("#sentence").replaceChildren(...(words ? copies(words) : [data.task[1]]));
+  narration.querySelector("#reason").replaceChildren(...lines(why));
+  narration.querySelector("#because").hidden = !why;
+  narration.querySelector("#behind").hidden = !step;
+  narration.querySelector("#aside").replaceChildren(...(aside ? copies(aside) : []));
+  warn(narration, crossings_of(step));
 }
 
 /** Write the rates at the driver's position: for the current step, and after a movement in the list. */
@@ -109,7 +110,7 @@ function tell_rates_of(step) {
   place.drawn ??= copies(place.say);
   place.say.replaceChildren(
     ...(moved()
-      ? read.flatMap(({ row, told: name }, i) => {
+      ? read.flatMap(({ row, text: name }, i) => {
           const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`),
             start = html_element("span");
           start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped by its maker
@@ -138,8 +139,8 @@ export function light(event) {
 }
 
 /** Write the flattest of some crossings. */
-export function warn(told, crossings) {
+export function warn(narration, crossings) {
   const factor = line => Number(line.querySelector(".factor").textContent.replace(data.mark, "."));
   const worst = crossings.reduce((a, b) => (a && factor(a) >= factor(b) ? a : b), null);
-  told.querySelector("#crossing").replaceChildren(...(worst ? copies(worst) : []));
+  narration.querySelector("#crossing").replaceChildren(...(worst ? copies(worst) : []));
 }

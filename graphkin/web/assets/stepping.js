@@ -49,7 +49,7 @@ export function show(step) {
 /** What gives the focus to the sentence, or else to the slider, if its element goes or is disabled. */
 function keeping_focus() {
   const held = /** @type {HTMLButtonElement} */ (document.activeElement),
-    other = byId("told").contains(held) ? byId("told") : slider;
+    other = byId("narration").contains(held) ? byId("narration") : slider;
   return () => {
     if (!held.isConnected || held.disabled) other.focus({ preventScroll: true });
   };

@@ -35,13 +35,13 @@ export function sources(steps) {
 
 /** List the names of the sources with the steps that drew them. */
 export function names(list, from) {
-  const told = new Map();
+  const first_at = new Map();
   for (const step of from) {
     const name = data.letters[step];
-    if (name && !told.has(name)) told.set(name, data.at[step]);
+    if (name && !first_at.has(name)) first_at.set(name, data.at[step]);
   }
   list.replaceChildren();
-  for (const [name, at] of [...told].sort((a, b) => a[1] - b[1])) {
+  for (const [name, at] of [...first_at].sort((a, b) => a[1] - b[1])) {
     if (list.childNodes.length) list.append(", ");
     const part = html_element(at ? "a" : "span");
     part.innerHTML = name; // markup of a symbol, escaped by its maker

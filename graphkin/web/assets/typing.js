@@ -154,12 +154,15 @@ function typed_ways(line) {
   return way ? [way] : others;
 }
 
+/** Whether lines can be typed here: where only fingers point, the field is hidden. */
+export const is_typed_here = () => byId("turn-type").checkVisibility();
+
 /** Show on the drawing and in words what a typed line would draw. */
 export function show_typed() {
   const ways = typed_ways(byId("turn-typed").value);
   show_aim(ways.length ? { ways: ways.slice(0, 1) } : null);
-  const told = ways.map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`);
-  byId("turn-would").innerHTML = told.join(" · ");
+  const offers = ways.map(each => `${action_name(each.action)}: ${names_of(each.inputs)}`);
+  byId("turn-would").innerHTML = offers.join(" · ");
 }
 
 /** Make the move that is typed; the action stays chosen for lines typed without one. */
@@ -217,7 +220,9 @@ function why_unread(line) {
 }
 
 const STICKS = ["perpendicular", "parallel", "triangle", "compass"]; // of which several are drawn one after the other
-const escaped = text => text.replace(/[&<>"]/g, sign => `&#${sign.charCodeAt(0)};`);
+
+/** A text as markup. */
+export const escaped = text => text.replace(/[&<>"]/g, sign => `&#${sign.charCodeAt(0)};`);
 
 export function forget_typed() {
   byId("turn-typed").value = "";

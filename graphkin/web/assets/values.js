@@ -42,13 +42,13 @@ const tables = [...document.querySelectorAll("#results table")].map(table => {
 export function read() {
   const values = motion.values(state.x),
     going = state.going,
-    told = new Set(rates_read().map(({ row }) => row));
+    read_now = new Set(rates_read().map(({ row }) => row));
   for (const { kind, rows } of tables) {
     const known = rows.filter(({ row }) => row.dataset.row in values);
     const sizes = known.map(({ row }) => Math.abs(values[row.dataset.row]));
     const noise = 1e-9 * Math.max(...sizes);
     known.forEach(({ row, cells, asked }, i) => {
-      if (asked || !going || told.has(row.dataset.row))
+      if (asked || !going || read_now.has(row.dataset.row))
         TOLD[kind](row, cells, sizes[i] > noise ? values[row.dataset.row] : 0);
     });
   }
@@ -78,15 +78,15 @@ export function read_out() {
 export const found = [...document.querySelectorAll("#results [data-found]")];
 
 /** The quantities asked for on a sheet, one line each, with their values where they are known. */
-export function all_asked(kind, told) {
+export function all_asked(kind, is_known) {
   const rows = document.querySelectorAll(`[data-kind=${kind}] [data-asked]`);
-  return [...rows].map(row => asked([...row.cells], told ?? !row.matches(".unknown")));
+  return [...rows].map(row => asked([...row.cells], is_known ?? !row.matches(".unknown")));
 }
 
 /** A quantity in one line: its name, then size and unit, or a question mark. */
-export function asked(cells, told) {
+export function asked(cells, is_known) {
   const value = html_element("span");
-  value.append(...copies(cells[0]), " = ", ...(told ? size_read(cells) : ["?"]));
+  value.append(...copies(cells[0]), " = ", ...(is_known ? size_read(cells) : ["?"]));
   return value;
 }
 

@@ -1,4 +1,5 @@
 // Your turn: hints, help, the score sheet, and the keys and clicks during a turn.
+import { save_file } from "./answer_files.js";
 import { html_element } from "./elements.js";
 import { follow_address } from "./address.js";
 import { draw_move } from "./choosing.js";
@@ -51,18 +52,12 @@ export function show_score() {
 async function save_score() {
   const [stem, id, code] = turning.owner;
   const steps = turn.log.map(({ step, how, wrong }) => [plain_words(moves[step].name), how, wrong]);
-  const told = { graphkin_turn: 1, id, from: turn.from, steps, left: moves_left().length };
+  const record = { graphkin_turn: 1, id, from: turn.from, steps, left: moves_left().length };
   const seal = code
-    ? await seal_of(`${code}\n${JSON.stringify([id, told.from, steps, told.left])}`)
+    ? await seal_of(`${code}\n${JSON.stringify([id, record.from, steps, record.left])}`)
     : "";
-  const link = html_element("a"),
-    file = `${stem}-turn.json`;
-  link.href = URL.createObjectURL(
-    new Blob([JSON.stringify({ ...told, seal })], { type: "application/json" }),
-  );
-  link.download = file;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+  const file = `${stem}-turn.json`;
+  save_file(file, JSON.stringify({ ...record, seal }), "application/json");
   byId("turn-say").textContent = worded("saved", { file });
 }
 
