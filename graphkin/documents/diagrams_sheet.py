@@ -10,10 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
-from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt
+from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt, tau
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil import STRAIGHT, Pencil
 from graphkin.construction.core.paper_canvas import clipped_path
@@ -82,6 +83,8 @@ GROWN = 4.0
 """The largest mechanical advantage that is drawn, in medians."""
 ROUNDING = 1e-9
 """The share of its natural size below which a rate is zero."""
+UNSEEN = 1e-5
+"""The share of a diagram that no drawing shows: 4 µm of the widest."""
 TICKS = 6
 """The most numbers along an axis of ordinates."""
 
@@ -454,10 +457,10 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
     units, kinds = units_of(motion), motion.kinds
     first = axes_for(motion, tops[0], tops[0] + height, speed, np.inf)
+    last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
+    distance, first, second = string_scale(motion, first, last)
     points = [first.place(float(u), float(v)) for u, v in zip(motion.at, speed, strict=True)]
     means = mean_ordinates(points, closed=is_whole(motion.found.cycle))
-    last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
-    distance, second = string_scale(motion, first, last, means)
     begun = second.place(float(motion.at[0]), float(where[0] - low))[1]
     strings = integrated([x for x, _ in points], means, distance, begun)
     found = Derived(strings, second, distance, kinds[0])
@@ -494,10 +497,11 @@ def mean_ordinates(points: Sequence[XY], *, closed: bool) -> list[float]:
     ]
 
 
-def string_scale(
-    motion: FollowerMotion, first: Axes, last: Axes, means: Sequence[float]
-) -> tuple[float, Axes]:
-    """The pole distance with which the strings fill their diagram, and the frame at its scale."""
+def string_scale(motion: FollowerMotion, first: Axes, last: Axes) -> tuple[float, Axes, Axes]:
+    """The pole distance with which the strings fill their diagram, and both frames at their scales.
+
+    Where the strings of the largest distance rise too far, the speed is drawn smaller.
+    """
     sign = 1.0 if motion.pace > 0 else -1.0
     room = room_for_pole(motion)
     per_unit = motion.found.cycle.sweep.per_unit
@@ -505,12 +509,16 @@ def string_scale(
     def high(distance: float) -> float:
         return abs(motion.pace) * first.high * first.wide / per_unit / distance
 
-    fits = [h for h in reversed(POLES) if h <= room and high(h) <= last.high]
-    distance = fits[0] if fits else max(h for h in POLES if h <= room)
-    factor = high(distance)
-    grown = (last.rect[3] - last.zero) * factor / last.high
-    lowered = last.rect[3] - grown
-    return sign * distance, Axes(last.rect, lowered, last.wide, factor, last.start)
+    possible = [h for h in reversed(POLES) if h <= room]
+    distance = next((h for h in possible if high(h) <= last.high), possible[-1])
+    factor = min(high(distance), last.high)
+    return sign * distance, scaled(first, factor / high(distance)), scaled(last, factor / last.high)
+
+
+def scaled(axes: Axes, share: float) -> Axes:
+    """A frame whose values are drawn smaller, with the foot of the values where it was."""
+    _, _, _, low = axes.rect
+    return replace(axes, zero=low - (low - axes.zero) * share, high=axes.high * share)
 
 
 def levels(words: Words, first: Axes, found: Derived) -> Iterator[Mark]:
@@ -561,15 +569,17 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
         words(
             "diagrams.summed",
             s=s,
-            off=words.significant(100 * off, 2),
-            pencil=words.significant(100 * hand / (float(np.ptp(where)) or 1.0), 2),
+            off=percent(words, off),
+            pencil=percent(words, hand / (float(np.ptp(where)) or 1.0)),
         ),
     ]
     if is_whole(motion.found.cycle):
         gap = abs(drawn[-1] - where[-1]) * found.axes.high
-        said.append(
-            words("diagrams.gap", gap=words.significant(float(gap), 2) if gap > 5e-3 else "0")
-        )
+        missed = words.significant(float(gap), 2) if gap > 5e-3 else "0"
+        turns = round((where[-1] - where[0]) / tau) if motion.is_link else 0
+        turned = f"{words.decimal(str(360 * turns))}°"
+        key = "diagrams.gap_turned" if turns else "diagrams.gap"
+        said.append(words(key, s=s, turned=turned, gap=missed))
     return said
 
 
@@ -756,6 +766,13 @@ def is_zero(motion: FollowerMotion, order: int) -> bool:
     return worst(own) <= ROUNDING * natural
 
 
+def percent(words: Words, share: float) -> str:
+    """A share of a diagram in percent; what no drawing shows is 0."""
+    if share < UNSEEN:
+        return "0"
+    return words.significant(100 * share, 2) if share < 1 else ">100"
+
+
 def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
     """What the method costs in accuracy, against the exact course, and what the pencil adds."""
     words, found = motion.found.shown.alone.words, []
@@ -765,8 +782,7 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
             found.append(words("diagrams.zero", v=name))
             continue
         shares = {
-            key: words.significant(100 * share, 2) if (share := getattr(cost, key)) < 1 else ">100"
-            for key in ("chord", "forecast", "pencil")
+            key: percent(words, getattr(cost, key)) for key in ("chord", "forecast", "pencil")
         }
         found.append(words(rate.method.cost, v=name, **shares))
     limit = words.significant(mark(), 1)

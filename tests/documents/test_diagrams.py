@@ -46,7 +46,10 @@ from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
 from tests.scene_files import scene_text
 
-DRAWN = ("crank-rocker", "shaper", "cam-roller", "gears-planet", "five-bar", "jumper")
+DRAWN = (
+    *("crank-rocker", "shaper", "cam-roller", "gears-planet", "five-bar", "jumper"),
+    "gears-three-planets",
+)
 
 
 def posed(mechanism: Mechanism, **ways: object) -> Mechanism:
@@ -166,6 +169,28 @@ def test_every_string_is_parallel_to_its_ray():
     for i, (one, other) in enumerate(pairwise(nodes)):
         string = -(other.cy - one.cy) / (other.cx - one.cx)
         assert string == pytest.approx(slope(rays[f"ray {i}"]), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["shaper", "cam-roller", "gears-three-planets"])
+def test_every_string_lies_in_its_diagram(name: str):
+    """Those of a link that turns fully rise as far as any."""
+    for page in sheets(name)["integration"]:
+        axis = [m for m in page.marks if isinstance(m, LineMark) and m.name in ("axis ψ", "axis s")]
+        low, top = max(m.y1 for m in axis), min(m.y2 for m in axis)
+        nodes = [m for m in page.marks if isinstance(m, CircleMark) and "point con" in m.cls]
+        assert len(nodes) == 1 + len(named(page, "ray "))
+        assert all(top <= node.cy <= low for node in nodes)
+
+
+def test_strings_of_a_whole_turn_are_said_to_have_turned_and_rounding_is_zero():
+    (page,) = sheets("gears-three-planets")["integration"]
+    said = [m.markup for m in page.marks if isinstance(m, Text)]
+    assert any("by strings: 0 %" in each for each in said)
+    assert any("360°" in each for each in said)
+    for page in sheets("gears-three-planets")["differentiation"]:
+        said = [m.markup for m in page.marks if isinstance(m, Text)]
+        assert not [each for each in said if "forecast" in each and "·10" in each]
+        assert any(": 0 % of" in each for each in said)
 
 
 def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
