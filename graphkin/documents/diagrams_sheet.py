@@ -331,7 +331,8 @@ def derive(
     unit = method.steps(points, sign, closed=closed)
     share = axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
     most, known = calm(motion.found, exact), exact[np.isfinite(exact)]
-    heights = np.concatenate([[each.found[1] for each in unit], known * share])
+    drawn = smooth_round(motion, [each.found for each in unit], axes.wide, method)
+    heights = np.concatenate([[y for _, y in drawn], known * share])
     heights = np.clip(heights, -most * share, most * share)
     least, largest = min(float(heights.min()), 0.0), max(float(heights.max()), 0.0)
     fits = [h for h in POLES if h <= room and h * (largest - least) <= FILLED * (low - top)]
@@ -456,7 +457,8 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
     units, kinds = units_of(motion), motion.kinds
-    first = axes_for(motion, tops[0], tops[0] + height, speed, np.inf)
+    drawn = smooth([*zip(motion.at, speed, strict=True)])
+    first = axes_for(motion, tops[0], tops[0] + height, np.array([v for _, v in drawn]), np.inf)
     last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
     distance, first, second = string_scale(motion, first, last)
     points = [first.place(float(u), float(v)) for u, v in zip(motion.at, speed, strict=True)]
@@ -605,17 +607,24 @@ def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
     return [(x - turn, y), *points, (u + turn, v)][: len(points) + 1]
 
 
-def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
-    """The smooth curve through the points that the chords give."""
-    points = found.points
+def smooth_round(
+    motion: FollowerMotion, points: Sequence[XY], wide: float, method: RateMethod
+) -> list[XY]:
+    """The smooth curve through the points of a derived diagram; over a whole turn it goes on."""
     if is_whole(motion.found.cycle):
-        turn = found.axes.wide * float(motion.at[-1] - motion.at[0])
-        once = points[:-1] if found.method is TANGENTS else points
+        turn = wide * float(motion.at[-1] - motion.at[0])
+        once = points[:-1] if method is TANGENTS else points
         before = [(x - turn, y) for x, y in once[-2:]]
         after = [(x + turn, y) for x, y in once[len(points) - len(once) :][:2]]
         points = [*before, *points, *after]
-    if len(points) > 2:
-        yield from curve(found.axes, smooth(points), look, found.name)
+    return smooth(points) if len(points) > 2 else [*points]
+
+
+def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
+    """The smooth curve through the points that the chords give."""
+    drawn = smooth_round(motion, found.points, found.axes.wide, found.method)
+    if len(drawn) > 2:
+        yield from curve(found.axes, drawn, look, found.name)
 
 
 def field_caption(motion: FollowerMotion, signs: str) -> Iterator[Mark]:

@@ -34,7 +34,7 @@ from graphkin.documents.diagrams_sheet import (
 )
 from graphkin.documents.positions import positions_of
 from graphkin.documents.sheet_documents import hand_out
-from graphkin.drawing.marks import CircleMark, LineMark, Page, Text
+from graphkin.drawing.marks import CircleMark, LineMark, Page, Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.read_scene import read_text
@@ -191,6 +191,23 @@ def test_strings_of_a_whole_turn_are_said_to_have_turned_and_rounding_is_zero():
         said = [m.markup for m in page.marks if isinstance(m, Text)]
         assert not [each for each in said if "forecast" in each and "·10" in each]
         assert any(": 0 % of" in each for each in said)
+
+
+def test_the_curve_of_the_speed_is_whole_between_its_crosses():
+    """The peak between two positions is higher than both."""
+    mechanism = slider_crank(2, 2.2, 0.1)
+    (page,) = sheets_of(posed(mechanism, count=6))["integration"]
+    assert uncut(page, "velocity", "v")
+    for page in sheets_of(posed(mechanism, count=6))["differentiation"]:
+        assert uncut(page, "velocity", "v")
+        assert uncut(page, "acceleration", "a")
+
+
+def uncut(page: Page, look: str, name: str) -> bool:
+    """Whether a curve is one piece and keeps clear of the edges of its diagram."""
+    (run,) = [m for m in page.marks if isinstance(m, Polyline) and m.cls == look and m.name == name]
+    edges = [y for m in named(page, "position ").values() for y in (m.y1, m.y2)]
+    return not any(abs(y - edge) < 1e-6 for _, y in run.points for edge in edges)
 
 
 def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
