@@ -67,6 +67,8 @@ NAMED = 12.0
 """The least room after the diagrams, for the name of the axis, in mm."""
 OVER, GAP = 6.0, 7.0
 """The room above the first diagram, and between two, in mm."""
+NUMBERED = 4.0
+"""The room above the zero line of a small diagram for the numbers of positions, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
 LETTERS = 2.5
@@ -111,14 +113,21 @@ class Axes(Struct, frozen=True):
 
 
 def axes_for(motion: FollowerMotion, top: float, low: float, values: Reals, most: float) -> Axes:
-    """The frame of a diagram for some values, which may not exceed a size."""
+    """The frame of a diagram of the follower for some values, which may not exceed a size."""
+    left, right = sides(motion)
+    return fitted((left, top, right, low), motion.at, values, most)
+
+
+def fitted(rect: Rect, at: Reals, values: Reals, most: float, above: float = 0.0) -> Axes:
+    """The frame in a rectangle for some values, with some room above its zero line."""
+    left, top, right, low = rect
     known = np.clip(values[np.isfinite(values)], -most, most)
     least, largest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
-    high = FILLED * (low - top) / (largest - least or 1.0)
-    left, right = sides(motion)
-    wide = (right - left) / float(motion.at[-1] - motion.at[0])
-    middle = (top + low) / 2 + (largest + least) / 2 * high
-    return Axes((left, top, right, low), middle, wide, high, float(motion.at[0]))
+    share = FILLED / (largest - least or 1.0)
+    upper = top + max(above - largest * share * (low - top), 0.0)
+    high = share * (low - upper)
+    zero = (upper + low) / 2 + (largest + least) / 2 * high
+    return Axes(rect, zero, (right - left) / float(at[-1] - at[0]), high, float(at[0]))
 
 
 def sides(motion: FollowerMotion) -> tuple[float, float]:
@@ -939,14 +948,10 @@ def small_diagram(
     found: PositionSet, at: Reals, fine: Reals, each: Asked, rect: Rect
 ) -> Iterator[Mark]:
     """One diagram: axes, the exact course, and the values of the plans."""
-    left, top, right, low = rect
+    _, top, _, low = rect
     most = each.most or calm(found, each.fine)
-    known = np.clip(each.fine[np.isfinite(each.fine)], -most, most)
-    least, highest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
-    high = FILLED * (low - top) / (highest - least or 1.0)
-    wide = (right - left) / float(at[-1] - at[0])
-    zero = (top + low) / 2 + (highest + least) / 2 * high
-    axes = Axes(rect, zero, wide, high, float(at[0]))
+    axes = fitted(rect, at, each.fine, most, NUMBERED)
+    zero = axes.zero
     words = found.shown.alone.words
     unit = words.spelled(each.unit.replace("²", "^2").replace("³", "^3"))
     yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")

@@ -469,3 +469,21 @@ def test_an_acceleration_of_zero_has_no_share_of_its_largest_value_and_no_number
         }
         assert len(ticks["ω"]) > 1
         assert len(ticks["ε"]) == 1
+
+
+def test_numbers_of_positions_are_clear_of_the_name_of_an_axis():
+    """Those of a link that only turns clockwise lie above its values, next to the name."""
+    scene = EPICYCLIC.replace("speed = 1400", "speed = -1400")
+    (page,) = sheets_of(Mechanism(read_text(scene, "epicyclic")))["courses"]
+    texts = [mark for mark in page.marks if isinstance(mark, Text)]
+    numbers = [box_of(mark) for mark in texts if mark.name.startswith("position ")]
+    titles = [box_of(mark) for mark in texts if mark.name.startswith("axis ω")]
+    assert len(titles) == 2
+    for left, top, right, low in titles:
+        for a, b, c, d in numbers:
+            assert c < left or right < a or d < top or low < b
+
+
+def box_of(text: Text) -> tuple[float, float, float, float]:
+    xs, ys = zip(*text.corners(), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
