@@ -487,3 +487,49 @@ def test_numbers_of_positions_are_clear_of_the_name_of_an_axis():
 def box_of(text: Text) -> tuple[float, float, float, float]:
     xs, ys = zip(*text.corners(), strict=True)
     return min(xs), min(ys), max(xs), max(ys)
+
+
+GEARED = """
+graphkin = 1
+title = "Double crank beside a wheel"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+module = 4
+
+[frame]
+O = [0, 0]
+Q = [30, 0]
+R = [0, -120]
+
+[links.1]
+O-A = 90
+wheel = { centre = "O", teeth = 40 }
+
+[links.2]
+A-B = 100
+
+[links.3]
+Q-B = 95
+
+[links.4]
+R-D = 30
+wheel = { centre = "R", teeth = 20 }
+rolls = { on = 1, start = { 1 = 0, 4 = 30 } }
+
+[[drivers]]
+turn = 1
+angle = 60
+speed = 100
+
+[branches]
+B = "left of A-Q"
+
+[ask]
+omega = [3, 4]
+"""
+
+
+def test_the_diagrams_show_the_last_follower_that_is_not_uniform():
+    moved = motion(Mechanism(read_text(GEARED, "geared")), 12)
+    assert moved.mover.name == "3"
+    only = motion(mechanism_named("gears-three-planets"), 12)
+    assert only.mover.name == "2"
