@@ -59,7 +59,7 @@ class FollowerMotion(Struct, frozen=True, dict=True):
 
     @property
     def step(self) -> float:
-        """The interval between positions, in rad, m or s."""
+        """The interval between positions, in rad, m or s, below zero where u falls."""
         return float(self.at[1] - self.at[0]) * self.found.cycle.sweep.per_unit
 
     def columns(

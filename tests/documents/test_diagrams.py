@@ -230,18 +230,42 @@ def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
         assert (zero - points[f"v_{i}"].cy) * k == pytest.approx(mean, abs=2e-3 * pace * r)
 
 
-def test_a_driver_that_runs_backwards_has_its_pole_behind_the_diagram():
-    """Chords and plans still agree in sign."""
-    page, _ = sheets_of(slider_crank(2, 5, 1, speed=-3))["differentiation"]
+def test_the_diagrams_of_a_driver_that_runs_backwards_run_with_its_motion():
+    """Poles lie before the axis, and chords and plans agree in sign; the angle falls."""
+    mechanism = slider_crank(2, 5, 1, speed=-3)
+    page, _ = sheets_of(mechanism)["differentiation"]
+    assert [m.markup for m in page.marks if getattr(m, "name", "") == "axis u"] == ["−*φ*"] * 3
     pole = next(m for m in page.marks if isinstance(m, CircleMark) and m.name == "P_v")
     ends = [m.x2 for m in named(page, "ray v").values()]
-    assert all(pole.cx > x for x in ends)
+    assert all(pole.cx < x for x in ends)
     points = [m for m in page.marks if isinstance(m, CircleMark) and m.name.startswith("v_")]
     crosses = [m for m in page.marks if isinstance(m, LineMark) and m.name.startswith("v_")]
     by_x = sorted({((m.x1 + m.x2) / 2, (m.y1 + m.y2) / 2) for m in crosses})
     for point in points:
         near = np.interp(point.cx, [x for x, _ in by_x], [y for _, y in by_x])
         assert point.cy == pytest.approx(near, abs=6.0)
+    (summed,) = sheets_of(mechanism)["integration"]
+    nodes = [m for m in summed.marks if isinstance(m, CircleMark) and m.cls == "point construction"]
+    rays = named(summed, "ray ")
+    for i, (one, other) in enumerate(pairwise(nodes)):
+        assert other.cx > one.cx
+        string = -(other.cy - one.cy) / (other.cx - one.cx)
+        assert string == pytest.approx(slope(rays[f"ray {i}"]), abs=1e-9)
+
+
+def test_diagrams_over_a_backward_driver_are_those_of_the_mirrored_mechanism():
+    """A crank-slider in line is its own mirror image, run the other way round."""
+    pages = [
+        sheets_of(slider_crank(2, 5, 0, angle=way * 20, speed=way * 3))["differentiation"]
+        for way in (1, -1)
+    ]
+    for one, other in zip(*pages, strict=True):
+        both = [
+            [(m.name, m.cx, m.cy) for m in page.marks if isinstance(m, CircleMark)]
+            for page in (one, other)
+        ]
+        assert [n for n, _, _ in both[0]] == [n for n, _, _ in both[1]]
+        assert np.allclose([m[1:] for m in both[0]], [m[1:] for m in both[1]], atol=1e-6)
 
 
 # --- what it costs --------------------------------------------------------------------------------
