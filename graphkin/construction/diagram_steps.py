@@ -37,10 +37,7 @@ class ChordRay(Struct, frozen=True):
 
 
 def differentiated(points: Sequence[XY], distance: float) -> list[ChordRay]:
-    """The rate in the middle of each interval, from chords and a pole at a distance H.
-
-    H is negative, and the pole behind the axis, where the diagram runs against the time.
-    """
+    """The rate in the middle of each interval, from chords and a pole at a distance H."""
     found = []
     for (x, y), (u, v) in pairwise(points):
         height = distance * (v - y) / (u - x)

@@ -59,7 +59,7 @@ class FollowerMotion(Struct, frozen=True, dict=True):
 
     @property
     def step(self) -> float:
-        """The interval between positions, in rad, m or s."""
+        """The interval between positions, in rad, m or s, below zero where u falls."""
         return float(self.at[1] - self.at[0]) * self.found.cycle.sweep.per_unit
 
     def columns(
@@ -131,6 +131,14 @@ class FollowerMotion(Struct, frozen=True, dict=True):
             return (OMEGA, name), (EPSILON, name)
         return ("slide speed", name), ("slide acceleration", name)
 
+    @property
+    def is_uniform(self) -> bool:
+        """Whether its speed is in proportion to that of the driver, but for rounding."""
+        first, second = self.columns(self.fine, self.targets, geometric=True)
+        within = abs(self.fine[-1] - self.fine[0]) * self.found.cycle.sweep.per_unit
+        change = np.nanmax(np.abs(second), initial=0.0) * within
+        return bool(change <= ROUNDED * np.nanmax(np.abs(first), initial=0.0))
+
     @cached_property
     def fine(self) -> Reals:
         """Many places u from the first position to the last."""
@@ -140,17 +148,19 @@ class FollowerMotion(Struct, frozen=True, dict=True):
 def motion_of(found: PositionSet) -> FollowerMotion | None:
     """The follower whose stroke the sheet of positions shows, or the last one that turns fully.
 
-    None where no link on the frame and no block follows, and where the driver is at rest.
+    Of those that turn, one that is not uniform is preferred. None where no link on the frame and no
+    block follows, and where the driver is at rest.
     """
     movers = {mover.name: mover for mover in movers_of(found.cycle)}
-    named = found.follower or next(reversed(followers(found.cycle)), None)
+    some = [found.follower] if found.follower else [*reversed(followers(found.cycle))]
     pace, push, sweep = 1.0, 0.0, found.cycle.sweep
     if sweep.driver is not None:
         _, speed, rise = stated_motion(sweep.driver, sweep.original)
         pace, push = float(speed), float(rise)
-    if named is None or named.name not in movers or pace == 0 or len(found.planned_places) < FEWEST:
+    if pace == 0 or len(found.planned_places) < FEWEST:
         return None
-    return FollowerMotion(found, movers[named.name], pace, push)
+    every = [FollowerMotion(found, movers[e.name], pace, push) for e in some if e.name in movers]
+    return next((each for each in every if not each.is_uniform), next(iter(every), None))
 
 
 def calm(found: PositionSet, values: Reals) -> float:

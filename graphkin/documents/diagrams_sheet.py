@@ -10,10 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import pairwise
-from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt
+from math import ceil, degrees, floor, hypot, isfinite, radians, sqrt, tau
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.accuracy.pencil import STRAIGHT, Pencil
 from graphkin.construction.core.paper_canvas import clipped_path
@@ -46,7 +47,7 @@ from graphkin.documents.positions_sheet import (
 )
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import XY, Rect
-from graphkin.drawing.marks import Anchor, CircleMark, LineMark, Mark, Page, Text, box
+from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent, flowed
 from graphkin.drawing.scale import preferred
 from graphkin.drawing.symbol_markup import escape
@@ -57,15 +58,15 @@ from graphkin.motion.extremes import asked_measures
 from graphkin.scene.link_points import lettered
 from graphkin.text import Words
 
-FORWARD = (96 / 386, 12 / 386)
+BEFORE, AFTER = 96 / 386, 12 / 386
 """The room before the axis of ordinates, where poles lie, and after the diagrams: parts of the
 field's width."""
-BACKWARD = (108 / 386, 98 / 386)
-"""The same where the driver runs backwards and poles lie right of the diagrams."""
 NAMED = 12.0
 """The least room after the diagrams, for the name of the axis, in mm."""
 OVER, GAP = 6.0, 7.0
 """The room above the first diagram, and between two, in mm."""
+NUMBERED = 4.0
+"""The room above the zero line of a small diagram for the numbers of positions, in mm."""
 ARROW = 5.0
 """Length of an axis beyond the diagram, in mm."""
 LETTERS = 2.5
@@ -82,6 +83,8 @@ GROWN = 4.0
 """The largest mechanical advantage that is drawn, in medians."""
 ROUNDING = 1e-9
 """The share of its natural size below which a rate is zero."""
+UNSEEN = 1e-5
+"""The share of a diagram that no drawing shows: 4 µm of the widest."""
 TICKS = 6
 """The most numbers along an axis of ordinates."""
 
@@ -90,6 +93,7 @@ class Axes(Struct, frozen=True):
     """A diagram's frame: its rectangle, the height of its zero line, and its scales.
 
     ``wide`` and ``high`` are mm for one unit of u and of the ordinate; ``start`` is u at the axis.
+    ``wide`` is below zero where the driver runs backwards: the diagrams run with the time.
     """
 
     rect: Rect
@@ -108,27 +112,32 @@ class Axes(Struct, frozen=True):
 
 
 def axes_for(motion: FollowerMotion, top: float, low: float, values: Reals, most: float) -> Axes:
-    """The frame of a diagram for some values, which may not exceed a size."""
+    """The frame of a diagram of the follower for some values, which may not exceed a size."""
+    left, right = sides(motion)
+    return fitted((left, top, right, low), motion.at, values, most)
+
+
+def fitted(rect: Rect, at: Reals, values: Reals, most: float, above: float = 0.0) -> Axes:
+    """The frame in a rectangle for some values, with some room above its zero line."""
+    left, top, right, low = rect
     known = np.clip(values[np.isfinite(values)], -most, most)
     least, largest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
-    high = FILLED * (low - top) / (largest - least or 1.0)
-    left, right = sides(motion)
-    wide = (right - left) / float(motion.at[-1] - motion.at[0])
-    middle = (top + low) / 2 + (largest + least) / 2 * high
-    return Axes((left, top, right, low), middle, wide, high, float(motion.at[0]))
+    share = FILLED / (largest - least or 1.0)
+    upper = top + max(above - largest * share * (low - top), 0.0)
+    high = share * (low - upper)
+    zero = (upper + low) / 2 + (largest + least) / 2 * high
+    return Axes(rect, zero, (right - left) / float(at[-1] - at[0]), high, float(at[0]))
 
 
 def sides(motion: FollowerMotion) -> tuple[float, float]:
-    """The left and right ends of the diagrams: room for poles before them, or behind."""
+    """The left and right ends of the diagrams: room for poles before them."""
     left, _, right, _ = field_on(motion.found)
-    before, after = FORWARD if motion.pace > 0 else BACKWARD
-    return left + before * (right - left), right - max(after * (right - left), NAMED)
+    return left + BEFORE * (right - left), right - max(AFTER * (right - left), NAMED)
 
 
 def room_for_pole(motion: FollowerMotion) -> float:
     """The largest distance of a pole from its axis, in mm."""
-    (left, right), field = sides(motion), field_on(motion.found)
-    return left - field[0] - 8 if motion.pace > 0 else field[2] - right - 14
+    return sides(motion)[0] - field_on(motion.found)[0] - 8
 
 
 # --- one diagram: axes, curves, points ------------------------------------------------------------
@@ -152,7 +161,8 @@ def frame_of(
     words = motion.found.shown.alone.words
     yield from axis_lines(axes, name, f"*{name}*, {escape(words.spelled(unit)).replace('²', '^2')}")
     at = right + ARROW + 1, axes.zero + 0.9
-    yield Text(*at, f"*{u_symbol(motion)}*", "caption", LETTERS, name="axis")
+    sign = "−" if axes.wide < 0 else ""
+    yield Text(*at, f"{sign}*{u_symbol(motion)}*", "caption", LETTERS, name="axis u")
     names = position_names(motion.found, motion.at)
     for i, u in enumerate(motion.at):
         x, _ = axes.on_page(axes.place(float(u), 0.0))
@@ -319,22 +329,22 @@ def derive(
     """The diagram of the rate, drawn from some points of another with the largest pole distance.
 
     The distance is a round number of mm at which these values and the ``exact`` course fit; the
-    scale follows from it. Where the driver runs backwards, the pole lies behind the diagram.
+    scale follows from it.
     """
     left, right = sides(motion)
-    sign = 1.0 if motion.pace > 0 else -1.0
     room = room_for_pole(motion)
     closed = is_whole(motion.found.cycle)
-    unit = method.steps(points, sign, closed=closed)
-    share = axes.high / axes.wide / abs(motion.pace) * motion.found.cycle.sweep.per_unit
+    unit = method.steps(points, 1.0, closed=closed)
+    share = axes.high / axes.wide / motion.pace * motion.found.cycle.sweep.per_unit
     most, known = calm(motion.found, exact), exact[np.isfinite(exact)]
-    heights = np.concatenate([[each.found[1] for each in unit], known * share])
+    drawn = smooth_round(motion, [each.found for each in unit], axes.wide, method)
+    heights = np.concatenate([[y for _, y in drawn], known * share])
     heights = np.clip(heights, -most * share, most * share)
     least, largest = min(float(heights.min()), 0.0), max(float(heights.max()), 0.0)
     fits = [h for h in POLES if h <= room and h * (largest - least) <= FILLED * (low - top)]
-    distance = sign * (fits[0] if fits else POLES[-1])
-    high = abs(distance) * share
-    middle = (top + low) / 2 + (largest + least) / 2 * abs(distance)
+    distance = fits[0] if fits else POLES[-1]
+    high = distance * share
+    middle = (top + low) / 2 + (largest + least) / 2 * distance
     own = Axes((left, top, right, low), middle, axes.wide, high, axes.start)
     return Derived(method.steps(points, distance, closed=closed), own, distance, name, method)
 
@@ -342,8 +352,7 @@ def derive(
 def construction(words: Words, before: Axes, found: Derived, look: str) -> Iterator[Mark]:
     """The chords in the first diagram, and in the second the pole, its rays and the points."""
     axes, name = found.axes, found.name
-    behind = found.distance < 0
-    foot = axes.rect[2] if behind else axes.rect[0]
+    foot = axes.rect[0]
     pole = foot - found.distance, axes.zero
     for i, each in enumerate(found.steps):
         start, end = before.on_page(each.first), before.on_page(each.last)
@@ -355,14 +364,10 @@ def construction(words: Words, before: Axes, found: Derived, look: str) -> Itera
             yield LineMark(foot, height, x, y, "ray", f"carried {name}_{i}")
     yield LineMark(*pole, foot, axes.zero, "centre-line", f"pole distance {name}")
     yield CircleMark(*pole, 1.1, f"pole {look}", f"P_{name}")
-    aside = 2.0 if behind else -2.0
-    anchor: Anchor = "start" if behind else "end"
     letter = f"*P*_{{*{name}*}}"
-    yield Text(
-        pole[0] + aside, pole[1] + 0.9, letter, f"label {look}", LETTERS, anchor, f"P_{name}"
-    )
-    caption = f"*H* = {abs(found.distance):g} {words.unit('mm')}"
-    if abs(found.distance) > extent(caption, LETTERS)[0] + 3:
+    yield Text(pole[0] - 2, pole[1] + 0.9, letter, f"label {look}", LETTERS, "end", f"P_{name}")
+    caption = f"*H* = {found.distance:g} {words.unit('mm')}"
+    if found.distance > extent(caption, LETTERS)[0] + 3:
         at = (pole[0] + foot) / 2, axes.zero + 3.2
         yield from cleared(
             Text(*at, caption, "caption", LETTERS, "middle", f"pole distance {name}")
@@ -453,11 +458,12 @@ def integration_page(motion: FollowerMotion, number: str) -> Page:
     exact = values_at(motion, motion.fine)
     low = float(min(np.nanmin(exact[0]), np.nanmin(where)))
     units, kinds = units_of(motion), motion.kinds
-    first = axes_for(motion, tops[0], tops[0] + height, speed, np.inf)
+    drawn = smooth([*zip(motion.at, speed, strict=True)])
+    first = axes_for(motion, tops[0], tops[0] + height, np.array([v for _, v in drawn]), np.inf)
+    last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
+    distance, first, second = string_scale(motion, first, last)
     points = [first.place(float(u), float(v)) for u, v in zip(motion.at, speed, strict=True)]
     means = mean_ordinates(points, closed=is_whole(motion.found.cycle))
-    last = axes_for(motion, tops[1], tops[1] + height, exact[0] - low, np.inf)
-    distance, second = string_scale(motion, first, last, means)
     begun = second.place(float(motion.at[0]), float(where[0] - low))[1]
     strings = integrated([x for x, _ in points], means, distance, begun)
     found = Derived(strings, second, distance, kinds[0])
@@ -494,29 +500,32 @@ def mean_ordinates(points: Sequence[XY], *, closed: bool) -> list[float]:
     ]
 
 
-def string_scale(
-    motion: FollowerMotion, first: Axes, last: Axes, means: Sequence[float]
-) -> tuple[float, Axes]:
-    """The pole distance with which the strings fill their diagram, and the frame at its scale."""
-    sign = 1.0 if motion.pace > 0 else -1.0
+def string_scale(motion: FollowerMotion, first: Axes, last: Axes) -> tuple[float, Axes, Axes]:
+    """The pole distance with which the strings fill their diagram, and both frames at their scales.
+
+    Where the strings of the largest distance rise too far, the speed is drawn smaller.
+    """
     room = room_for_pole(motion)
     per_unit = motion.found.cycle.sweep.per_unit
 
     def high(distance: float) -> float:
-        return abs(motion.pace) * first.high * first.wide / per_unit / distance
+        return motion.pace * first.wide * first.high / per_unit / distance
 
-    fits = [h for h in reversed(POLES) if h <= room and high(h) <= last.high]
-    distance = fits[0] if fits else max(h for h in POLES if h <= room)
-    factor = high(distance)
-    grown = (last.rect[3] - last.zero) * factor / last.high
-    lowered = last.rect[3] - grown
-    return sign * distance, Axes(last.rect, lowered, last.wide, factor, last.start)
+    possible = [h for h in reversed(POLES) if h <= room]
+    distance = next((h for h in possible if high(h) <= last.high), possible[-1])
+    factor = min(high(distance), last.high)
+    return distance, scaled(first, factor / high(distance)), scaled(last, factor / last.high)
+
+
+def scaled(axes: Axes, share: float) -> Axes:
+    """A frame whose values are drawn smaller, with the foot of the values where it was."""
+    _, _, _, low = axes.rect
+    return replace(axes, zero=low - (low - axes.zero) * share, high=axes.high * share)
 
 
 def levels(words: Words, first: Axes, found: Derived) -> Iterator[Mark]:
     """The level of each interval, its ray to the pole, and the string parallel to the ray."""
-    behind = found.distance < 0
-    foot = first.rect[2] if behind else first.rect[0]
+    foot = first.rect[0]
     pole = foot - found.distance, first.zero
     for i, each in enumerate(found.steps):
         height = first.zero - each.end[1]
@@ -524,17 +533,13 @@ def levels(words: Words, first: Axes, found: Derived) -> Iterator[Mark]:
             continue
         (x, _), (u, _) = first.on_page(each.first), first.on_page(each.last)
         yield LineMark(x, height, u, height, "construction", f"level {i}")
-        yield LineMark(
-            foot, height, *((u, height) if behind else (x, height)), "ray", f"carried {i}"
-        )
+        yield LineMark(foot, height, x, height, "ray", f"carried {i}")
         yield LineMark(*pole, foot, height, "construction", f"ray {i}")
     yield LineMark(*pole, foot, first.zero, "centre-line", "pole distance")
     yield CircleMark(*pole, 1.1, "pole velocity", "P")
-    aside = 2.0 if behind else -2.0
-    anchor: Anchor = "start" if behind else "end"
-    yield Text(pole[0] + aside, pole[1] + 0.9, "*P*", "label velocity", LETTERS, anchor, "P")
-    caption = f"*H* = {abs(found.distance):g} {words.unit('mm')}"
-    if abs(found.distance) > extent(caption, LETTERS)[0] + 3:
+    yield Text(pole[0] - 2, pole[1] + 0.9, "*P*", "label velocity", LETTERS, "end", "P")
+    caption = f"*H* = {found.distance:g} {words.unit('mm')}"
+    if found.distance > extent(caption, LETTERS)[0] + 3:
         at = (pole[0] + foot) / 2, first.zero + 3.2
         yield from cleared(Text(*at, caption, "caption", LETTERS, "middle", "pole distance"))
 
@@ -550,7 +555,7 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
     off = worst(drawn - where[1:]) / (float(np.ptp(where)) or 1.0)
     count = len(found.steps)
     interval = first.wide * float(motion.at[1] - motion.at[0])
-    hand = mark() * sqrt(count) * interval / abs(found.distance) / found.axes.high
+    hand = mark() * sqrt(count) * interval / found.distance / found.axes.high
     per_mm = words.unit(f"{rates_units(motion)[0]}/mm")
     rule = f"*k*_{{*{s}*}} = *k*_{{*{v}*}}·*k*_{{*{u_symbol(motion)}*}}·*H*{pace}"
     said = [
@@ -561,15 +566,17 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
         words(
             "diagrams.summed",
             s=s,
-            off=words.significant(100 * off, 2),
-            pencil=words.significant(100 * hand / (float(np.ptp(where)) or 1.0), 2),
+            off=percent(words, off),
+            pencil=percent(words, hand / (float(np.ptp(where)) or 1.0)),
         ),
     ]
     if is_whole(motion.found.cycle):
         gap = abs(drawn[-1] - where[-1]) * found.axes.high
-        said.append(
-            words("diagrams.gap", gap=words.significant(float(gap), 2) if gap > 5e-3 else "0")
-        )
+        missed = words.significant(float(gap), 2) if gap > 5e-3 else "0"
+        turns = round((where[-1] - where[0]) / tau) if motion.is_link else 0
+        turned = f"{words.decimal(str(360 * turns))}°"
+        key = "diagrams.gap_turned" if turns else "diagrams.gap"
+        said.append(words(key, s=s, turned=turned, gap=missed))
     return said
 
 
@@ -595,17 +602,24 @@ def closed_round(motion: FollowerMotion, rate: Derived) -> list[XY]:
     return [(x - turn, y), *points, (u + turn, v)][: len(points) + 1]
 
 
-def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
-    """The smooth curve through the points that the chords give."""
-    points = found.points
+def smooth_round(
+    motion: FollowerMotion, points: Sequence[XY], wide: float, method: RateMethod
+) -> list[XY]:
+    """The smooth curve through the points of a derived diagram; over a whole turn it goes on."""
     if is_whole(motion.found.cycle):
-        turn = found.axes.wide * float(motion.at[-1] - motion.at[0])
-        once = points[:-1] if found.method is TANGENTS else points
+        turn = wide * float(motion.at[-1] - motion.at[0])
+        once = points[:-1] if method is TANGENTS else points
         before = [(x - turn, y) for x, y in once[-2:]]
         after = [(x + turn, y) for x, y in once[len(points) - len(once) :][:2]]
         points = [*before, *points, *after]
-    if len(points) > 2:
-        yield from curve(found.axes, smooth(points), look, found.name)
+    return smooth(points) if len(points) > 2 else [*points]
+
+
+def through(motion: FollowerMotion, found: Derived, look: str) -> Iterator[Mark]:
+    """The smooth curve through the points that the chords give."""
+    drawn = smooth_round(motion, found.points, found.axes.wide, found.method)
+    if len(drawn) > 2:
+        yield from curve(found.axes, drawn, look, found.name)
 
 
 def field_caption(motion: FollowerMotion, signs: str) -> Iterator[Mark]:
@@ -647,7 +661,7 @@ def scales_said(motion: FollowerMotion, first: Axes, rate: Derived, again: Deriv
     drawing, words = motion.found.shown.alone, motion.found.shown.alone.words
     s, v, a = motion.kinds
     sweep = motion.found.cycle.sweep
-    k_u = sweep.per_unit / first.wide
+    k_u = sweep.per_unit / abs(first.wide)
     unit_u = words.unit({"turn": "rad/mm", "slide": "m/mm", "time": "s/mm"}.get(sweep.what, "m/mm"))
     units = [
         words.unit(f"{unit}/mm")
@@ -711,10 +725,10 @@ def cost_of_second(motion: FollowerMotion, rate: Derived, again: Derived) -> Cos
     forecast = again.method.second * motion.step**2 * np.abs(motion.pace**2 * fourth)
     interval = interval_of(motion, rate)
     if again.method is TANGENTS:
-        before = sqrt(2) * hand_of_rate(motion, rate) * abs(again.distance) / (2 * interval)
+        before = sqrt(2) * hand_of_rate(motion, rate) * again.distance / (2 * interval)
         hand = hypot(before, hand_of_rate(motion, again))
     else:
-        hand = sqrt(6) * mark() * abs(rate.distance * again.distance) / interval**2
+        hand = sqrt(6) * mark() * rate.distance * again.distance / interval**2
     hand /= again.axes.high
     return Cost(worst(drawn - exact) / size, worst(forecast) / size, hand / size)
 
@@ -727,9 +741,9 @@ def interval_of(motion: FollowerMotion, found: Derived) -> float:
 def hand_of_rate(motion: FollowerMotion, rate: Derived) -> float:
     """What a hand adds to an ordinate, in mm: by two marks of a chord, or by a tangent's angle."""
     if rate.method is CHORDS:
-        return sqrt(2) * mark() * abs(rate.distance) / interval_of(motion, rate)
+        return sqrt(2) * mark() * rate.distance / interval_of(motion, rate)
     tangent = float(np.median([abs(y / rate.distance) for _, y in rate.points]))
-    return abs(rate.distance) * (1 + tangent**2) * radians(Pencil().degrees)
+    return rate.distance * (1 + tangent**2) * radians(Pencil().degrees)
 
 
 def mark() -> float:
@@ -752,8 +766,15 @@ def is_zero(motion: FollowerMotion, order: int) -> bool:
     It is compared with a rate that would change the quantity before it by its own size.
     """
     before, own = values_at(motion, motion.fine)[order - 1 : order + 1]
-    natural = worst(before) * abs(motion.pace) / float(motion.at[-1] - motion.at[0])
+    natural = worst(before) * abs(motion.pace / float(motion.at[-1] - motion.at[0]))
     return worst(own) <= ROUNDING * natural
+
+
+def percent(words: Words, share: float) -> str:
+    """A share of a diagram in percent; what no drawing shows is 0."""
+    if share < UNSEEN:
+        return "0"
+    return words.significant(100 * share, 2) if share < 1 else ">100"
 
 
 def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
@@ -765,8 +786,7 @@ def costs(motion: FollowerMotion, rate: Derived, again: Derived) -> list[str]:
             found.append(words("diagrams.zero", v=name))
             continue
         shares = {
-            key: words.significant(100 * share, 2) if (share := getattr(cost, key)) < 1 else ">100"
-            for key in ("chord", "forecast", "pencil")
+            key: percent(words, getattr(cost, key)) for key in ("chord", "forecast", "pencil")
         }
         found.append(words(rate.method.cost, v=name, **shares))
     limit = words.significant(mark(), 1)
@@ -914,14 +934,10 @@ def small_diagram(
     found: PositionSet, at: Reals, fine: Reals, each: Asked, rect: Rect
 ) -> Iterator[Mark]:
     """One diagram: axes, the exact course, and the values of the plans."""
-    left, top, right, low = rect
+    _, top, _, low = rect
     most = each.most or calm(found, each.fine)
-    known = np.clip(each.fine[np.isfinite(each.fine)], -most, most)
-    least, highest = min(float(known.min()), 0.0), max(float(known.max()), 0.0)
-    high = FILLED * (low - top) / (highest - least or 1.0)
-    wide = (right - left) / float(at[-1] - at[0])
-    zero = (top + low) / 2 + (highest + least) / 2 * high
-    axes = Axes(rect, zero, wide, high, float(at[0]))
+    axes = fitted(rect, at, each.fine, most, NUMBERED)
+    zero = axes.zero
     words = found.shown.alone.words
     unit = words.spelled(each.unit.replace("²", "^2").replace("³", "^3"))
     yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
@@ -931,7 +947,7 @@ def small_diagram(
         x, _ = axes.on_page(axes.place(float(u), 0.0))
         yield LineMark(x, zero - 0.8, x, zero + 0.8, "dimension", f"position {name}")
         if len(names) <= MANY or int(name) % 2 == 0:
-            below = not np.interp(u, fine, each.fine) < 0  # away from the curve
+            below = not each.fine[int(np.abs(fine - u).argmin())] < 0  # away from the curve
             number = Text(
                 x,
                 zero + (3.2 if below else -1.4),

@@ -32,7 +32,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at, cycle_at
 from graphkin.motion.driving import TURN
-from graphkin.motion.equal_positions import Start, equal_places
+from graphkin.motion.equal_positions import Start, equal_places, sense_of
 from graphkin.motion.follower_limits import Follower, followers
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
@@ -113,7 +113,7 @@ class PositionSet(Struct, frozen=True, dict=True):
         """The places of the driver with plans; a turn ends at the place where it begins."""
         places = [each.at for each in self.numbered if each.plans]
         if is_whole(self.cycle):
-            places.append(places[0] + self.cycle.path.period)
+            places.append(places[0] + sense_of(self.cycle) * self.cycle.path.period)
         return np.array(places)
 
     @cached_property
@@ -184,7 +184,7 @@ def positions_of(mechanism: Mechanism, words: Words) -> PositionSet:
         Position(name, u, alone, {})
         for (name, u), alone in zip(between, found[len(places) :], strict=True)
     )
-    own = moved.path.found_at(moved.sweep.at_scene, float(at[0]), float(at[-1]))
+    own = moved.path.found_at(moved.sweep.at_scene, float(at.min()), float(at.max()))
     nearest = int(np.abs(at - own).argmin())
     strong = nearest if wanted.strong is None else wanted.strong
     return PositionSet(moved, wanted, numbered, dead, strong, travel, difference)

@@ -429,8 +429,14 @@ def touching(pins: Sequence[tuple[Position, XY]], least: float) -> list[list[tup
         while near := [one for one in left if any(dist(one[1], at) < least for _, at in group)]:
             group += near
             left = [one for one in left if one not in near]
-        found.append(sorted(group, key=lambda one: (not one[0].name.isdigit(), one[0].at)))
+        found.append(sorted(group, key=lambda one: in_order(one[0])))
     return found
+
+
+def in_order(each: Position) -> tuple[bool, float]:
+    """Numbered positions first, as they are numbered, then dead points."""
+    numbered = each.name.isdigit()
+    return not numbered, float(each.name) if numbered else each.at
 
 
 def outward(found: PositionSet, path: Sequence[XY], at: XY, each: Position) -> XY | None:

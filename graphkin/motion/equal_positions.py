@@ -8,6 +8,7 @@ import numpy as np
 
 from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle
+from graphkin.motion.driving import stated_motion
 from graphkin.motion.follower_limits import followers
 from graphkin.motion.pieces import ALIKE
 from graphkin.text.errors import SceneError, message
@@ -31,19 +32,22 @@ def equal_places(
 ) -> Reals:
     """The places u (N,) of ``count`` equal steps in the range of the scene, with its ends.
 
+    They follow the motion: where the driver runs backwards, u falls.
+
     ``start`` may be a u itself. ``dead`` starts at the dead point that begins the range, or where
     the last follower that reverses has its low limit. Raises SceneError, about ``place``, if there
     is neither, or if no position lies in the range.
     """
     low, high = cycle.ranges[0]
     whole = cycle.path.whole and cycle.path.returns
+    sense = sense_of(cycle)
     step = (cycle.path.period if whole else high - low) / count
     if start == "dead":
         first = dead_point(cycle, place)
     else:
         first = cycle.sweep.at_scene if start == "scene" else float(start)
     if whole:
-        return np.asarray(first + step * np.arange(count), float)
+        return np.asarray(first + sense * step * np.arange(count), float)
     first = cycle.path.found_at(first, low, high)
     numbers = np.arange(-count, count + 1)
     at = first + step * numbers
@@ -55,14 +59,24 @@ def equal_places(
             message("the first position lies far outside the range of the driver"),
             message("a position from {low:.4g} to {high:.4g} {unit}", **ends),
         )
-    return np.asarray(at, float)
+    return np.asarray(at if sense > 0 else at[::-1], float)
+
+
+def sense_of(cycle: Cycle) -> float:
+    """1, or -1 where the driver runs backwards."""
+    driver = cycle.sweep.driver
+    if driver is None:
+        return 1.0
+    _, speed, _ = stated_motion(driver, cycle.sweep.original)
+    return -1.0 if speed < 0 else 1.0
 
 
 def dead_point(cycle: Cycle, place: str) -> float:
     """The dead point that begins the range, or a dead point of the last follower that reverses."""
-    low = cycle.path.ranges[0][0].low
-    if low.kind == "dead":
-        return low.at
+    pieces = cycle.path.ranges[0]
+    begin = pieces[0].low if sense_of(cycle) > 0 else pieces[-1].high
+    if begin.kind == "dead":
+        return begin.at
     found = [each.low.at for each in followers(cycle) if each.limits and not each.low.edge]
     if not found:
         raise SceneError.at(

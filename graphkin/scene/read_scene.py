@@ -95,7 +95,7 @@ def known_keys(text: str, name: str) -> dict[str, list[str]]:
     findings = Findings()
     with suppress(GraphkinError):
         read_into(findings, text, name)
-    return findings.known
+    return {place: [*dict.fromkeys(keys)] for place, keys in findings.known.items()}
 
 
 def read_into(

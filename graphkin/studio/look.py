@@ -257,6 +257,7 @@ EVERY = f"""
 O = {{ from = 0 }}
 [links.1]
 A = [0, 0]
+mass = 1
 P = {{ from = 0 }}
 {LINES.join(f"{key} = {{}}" for key in JOINED)}
 touches = {{}}
@@ -266,6 +267,8 @@ cam = {{ law = [{{}}] }}
 O-B = 1
 cam = {{ tip = "roller", conjugate = {{}} }}
 {LINES.join(f"[[drivers]]{LINES}{kind} = 1" for kind in DRIVEN)}
+[[loads]]
+[[springs]]
 [branches]
 [ask]
 [sheet]

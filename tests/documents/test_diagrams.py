@@ -34,7 +34,7 @@ from graphkin.documents.diagrams_sheet import (
 )
 from graphkin.documents.positions import positions_of
 from graphkin.documents.sheet_documents import hand_out
-from graphkin.drawing.marks import CircleMark, LineMark, Page, Text
+from graphkin.drawing.marks import CircleMark, LineMark, Page, Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.read_scene import read_text
@@ -46,7 +46,10 @@ from tests.mechanisms import mechanism_of
 from tests.motion.linkages import slider_crank
 from tests.scene_files import scene_text
 
-DRAWN = ("crank-rocker", "shaper", "cam-roller", "gears-planet", "five-bar", "jumper")
+DRAWN = (
+    *("crank-rocker", "shaper", "cam-roller", "gears-planet", "five-bar", "jumper"),
+    "gears-three-planets",
+)
 
 
 def posed(mechanism: Mechanism, **ways: object) -> Mechanism:
@@ -168,6 +171,45 @@ def test_every_string_is_parallel_to_its_ray():
         assert string == pytest.approx(slope(rays[f"ray {i}"]), abs=1e-9)
 
 
+@pytest.mark.parametrize("name", ["shaper", "cam-roller", "gears-three-planets"])
+def test_every_string_lies_in_its_diagram(name: str):
+    """Those of a link that turns fully rise as far as any."""
+    for page in sheets(name)["integration"]:
+        axis = [m for m in page.marks if isinstance(m, LineMark) and m.name in ("axis ψ", "axis s")]
+        low, top = max(m.y1 for m in axis), min(m.y2 for m in axis)
+        nodes = [m for m in page.marks if isinstance(m, CircleMark) and "point con" in m.cls]
+        assert len(nodes) == 1 + len(named(page, "ray "))
+        assert all(top <= node.cy <= low for node in nodes)
+
+
+def test_strings_of_a_whole_turn_are_said_to_have_turned_and_rounding_is_zero():
+    (page,) = sheets("gears-three-planets")["integration"]
+    said = [m.markup for m in page.marks if isinstance(m, Text)]
+    assert any("by strings: 0 %" in each for each in said)
+    assert any("360°" in each for each in said)
+    for page in sheets("gears-three-planets")["differentiation"]:
+        said = [m.markup for m in page.marks if isinstance(m, Text)]
+        assert not [each for each in said if "forecast" in each and "·10" in each]
+        assert any(": 0 % of" in each for each in said)
+
+
+def test_the_curve_of_the_speed_is_whole_between_its_crosses():
+    """The peak between two positions is higher than both."""
+    mechanism = slider_crank(2, 2.2, 0.1)
+    (page,) = sheets_of(posed(mechanism, count=6))["integration"]
+    assert uncut(page, "velocity", "v")
+    for page in sheets_of(posed(mechanism, count=6))["differentiation"]:
+        assert uncut(page, "velocity", "v")
+        assert uncut(page, "acceleration", "a")
+
+
+def uncut(page: Page, look: str, name: str) -> bool:
+    """Whether a curve is one piece and keeps clear of the edges of its diagram."""
+    (run,) = [m for m in page.marks if isinstance(m, Polyline) and m.cls == look and m.name == name]
+    edges = [y for m in named(page, "position ").values() for y in (m.y1, m.y2)]
+    return not any(abs(y - edge) < 1e-6 for _, y in run.points for edge in edges)
+
+
 def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
     """Measured with the printed factors, a point is Δs·ω/Δφ by the closed form."""
     r, rod, e, pace = 2.0, 5.0, 1.0, 3.0
@@ -188,18 +230,42 @@ def test_the_derived_scale_gives_the_mean_speed_of_each_interval():
         assert (zero - points[f"v_{i}"].cy) * k == pytest.approx(mean, abs=2e-3 * pace * r)
 
 
-def test_a_driver_that_runs_backwards_has_its_pole_behind_the_diagram():
-    """Chords and plans still agree in sign."""
-    page, _ = sheets_of(slider_crank(2, 5, 1, speed=-3))["differentiation"]
+def test_the_diagrams_of_a_driver_that_runs_backwards_run_with_its_motion():
+    """Poles lie before the axis, and chords and plans agree in sign; the angle falls."""
+    mechanism = slider_crank(2, 5, 1, speed=-3)
+    page, _ = sheets_of(mechanism)["differentiation"]
+    assert [m.markup for m in page.marks if getattr(m, "name", "") == "axis u"] == ["−*φ*"] * 3
     pole = next(m for m in page.marks if isinstance(m, CircleMark) and m.name == "P_v")
     ends = [m.x2 for m in named(page, "ray v").values()]
-    assert all(pole.cx > x for x in ends)
+    assert all(pole.cx < x for x in ends)
     points = [m for m in page.marks if isinstance(m, CircleMark) and m.name.startswith("v_")]
     crosses = [m for m in page.marks if isinstance(m, LineMark) and m.name.startswith("v_")]
     by_x = sorted({((m.x1 + m.x2) / 2, (m.y1 + m.y2) / 2) for m in crosses})
     for point in points:
         near = np.interp(point.cx, [x for x, _ in by_x], [y for _, y in by_x])
         assert point.cy == pytest.approx(near, abs=6.0)
+    (summed,) = sheets_of(mechanism)["integration"]
+    nodes = [m for m in summed.marks if isinstance(m, CircleMark) and m.cls == "point construction"]
+    rays = named(summed, "ray ")
+    for i, (one, other) in enumerate(pairwise(nodes)):
+        assert other.cx > one.cx
+        string = -(other.cy - one.cy) / (other.cx - one.cx)
+        assert string == pytest.approx(slope(rays[f"ray {i}"]), abs=1e-9)
+
+
+def test_diagrams_over_a_backward_driver_are_those_of_the_mirrored_mechanism():
+    """A crank-slider in line is its own mirror image, run the other way round."""
+    pages = [
+        sheets_of(slider_crank(2, 5, 0, angle=way * 20, speed=way * 3))["differentiation"]
+        for way in (1, -1)
+    ]
+    for one, other in zip(*pages, strict=True):
+        both = [
+            [(m.name, m.cx, m.cy) for m in page.marks if isinstance(m, CircleMark)]
+            for page in (one, other)
+        ]
+        assert [n for n, _, _ in both[0]] == [n for n, _, _ in both[1]]
+        assert np.allclose([m[1:] for m in both[0]], [m[1:] for m in both[1]], atol=1e-6)
 
 
 # --- what it costs --------------------------------------------------------------------------------
@@ -427,3 +493,67 @@ def test_an_acceleration_of_zero_has_no_share_of_its_largest_value_and_no_number
         }
         assert len(ticks["ω"]) > 1
         assert len(ticks["ε"]) == 1
+
+
+def test_numbers_of_positions_are_clear_of_the_name_of_an_axis():
+    """Those of a link that only turns clockwise lie above its values, next to the name."""
+    scene = EPICYCLIC.replace("speed = 1400", "speed = -1400")
+    (page,) = sheets_of(Mechanism(read_text(scene, "epicyclic")))["courses"]
+    texts = [mark for mark in page.marks if isinstance(mark, Text)]
+    numbers = [box_of(mark) for mark in texts if mark.name.startswith("position ")]
+    titles = [box_of(mark) for mark in texts if mark.name.startswith("axis ω")]
+    assert len(titles) == 2
+    for left, top, right, low in titles:
+        for a, b, c, d in numbers:
+            assert c < left or right < a or d < top or low < b
+
+
+def box_of(text: Text) -> tuple[float, float, float, float]:
+    xs, ys = zip(*text.corners(), strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+GEARED = """
+graphkin = 1
+title = "Double crank beside a wheel"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+module = 4
+
+[frame]
+O = [0, 0]
+Q = [30, 0]
+R = [0, -120]
+
+[links.1]
+O-A = 90
+wheel = { centre = "O", teeth = 40 }
+
+[links.2]
+A-B = 100
+
+[links.3]
+Q-B = 95
+
+[links.4]
+R-D = 30
+wheel = { centre = "R", teeth = 20 }
+rolls = { on = 1, start = { 1 = 0, 4 = 30 } }
+
+[[drivers]]
+turn = 1
+angle = 60
+speed = 100
+
+[branches]
+B = "left of A-Q"
+
+[ask]
+omega = [3, 4]
+"""
+
+
+def test_the_diagrams_show_the_last_follower_that_is_not_uniform():
+    moved = motion(Mechanism(read_text(GEARED, "geared")), 12)
+    assert moved.mover.name == "3"
+    only = motion(mechanism_named("gears-three-planets"), 12)
+    assert only.mover.name == "2"

@@ -24,6 +24,16 @@ def test_positions_divide_a_turn_from_the_scene_on():
     assert found.at == pytest.approx(17 + 45 * np.arange(8))
 
 
+def test_positions_of_a_driver_that_runs_backwards_follow_its_motion():
+    found = equal_positions(cycle(slider_crank(2, 5, 1, angle=17, speed=-3), steps=12), 8)
+    assert found.at == pytest.approx(17 - 45 * np.arange(8))
+    rise = np.diff(found.solution.points["B"].position.real)
+    speed = found.solution.points["B"].velocity.real
+    steady = speed[1:] * speed[:-1] > 0
+    assert steady.sum() > 4
+    assert (rise * speed[1:] > 0)[steady].all()
+
+
 def test_positions_start_where_crank_and_rod_are_in_line():
     """The inner dead point of a slider-crank: sin φ = -e/(l - r), with φ beyond 180°."""
     found = equal_positions(cycle(slider_crank(2, 5, 1), steps=12), 12, "dead")

@@ -18,8 +18,14 @@ from graphkin.studio.session import PageRequest, Session
 
 PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 
-BAR = PUMP[: PUMP.index("A-B = 40")].count("\n") + 1
-"""The line of the plate's bar AB."""
+
+
+def line_with(words: str) -> int:
+    """The number of the line of the pump's text that has some words."""
+    return PUMP[: PUMP.index(words)].count("\n") + 1
+
+
+BAR = line_with("A-B = 40")
 
 LONG = 600
 """Seconds after which a studio that has not ended never will, on however slow a machine."""
