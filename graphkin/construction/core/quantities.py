@@ -224,7 +224,10 @@ ASKED = {
     for key in dict.fromkeys(key for each in (*QUANTITIES, *TRAVEL) for key in each.asked_by)
 }
 """The quantities that each key of [ask] asks for."""
-WHOSE: dict[str, Whose] = {key: found[0].whose for key, found in ASKED.items()}
+WHOSE: dict[str, Whose] = {
+    key: "links" if len({each.whose for each in found}) > 1 else found[0].whose
+    for key, found in ASKED.items()
+}
 """The owners that each key of [ask] lists."""
 
 
