@@ -28,7 +28,6 @@ from graphkin.construction.core.quantities import (
     BY_TARGET,
     FORCE,
     SHEETS,
-    STROKE,
     TIME_RATIO,
     Whose,
     names_asked,
@@ -239,10 +238,8 @@ def of_travel(drawing: Drawing) -> Iterator[Relation]:
             result = words.significant(found.value)
             yield Relation(sign, figures=f"{slow} : {fast}", result=result, remark=remark)
             continue
-        unit = drawing.scene.units["length"] if quantity is STROKE else quantity.unit
-        size = drawing.length(found.value) if quantity is STROKE else found.value
-        remark = words("calculation.dead_positions")
-        yield Relation(sign, result=words.significant(size), unit=unit, remark=remark)
+        unit, remark = words.unit(quantity.unit), words("calculation.dead_positions")
+        yield Relation(sign, result=words.significant(found.value), unit=unit, remark=remark)
 
 
 def once(sections: Iterable[Section]) -> Iterator[Section]:
