@@ -31,6 +31,7 @@ from graphkin.construction.core.quantities import (
     TIME_RATIO,
     Whose,
     names_asked,
+    request,
 )
 from graphkin.construction.core.relation import (
     Relation,
@@ -240,6 +241,17 @@ def of_travel(drawing: Drawing) -> Iterator[Relation]:
             continue
         unit, remark = words.unit(quantity.unit), words("calculation.dead_positions")
         yield Relation(sign, result=words.significant(found.value), unit=unit, remark=remark)
+
+
+def travel_words(drawing: Drawing) -> list[str]:
+    """The strokes, swings and time ratios that are asked, in words."""
+    ask, links = drawing.scene.ask, drawing.scene.links
+    asked = {
+        "ask.strokes": [name for name in ask.strokes if links[name].slides],
+        "ask.swings": [name for name in ask.strokes if not links[name].slides],
+        "ask.time_ratios": ask.time_ratios,
+    }
+    return [request(drawing.words, key, map(escape, some)) for key, some in asked.items() if some]
 
 
 def once(sections: Iterable[Section]) -> Iterator[Section]:
