@@ -211,7 +211,9 @@ class DeskQueue(Struct, frozen=True):
             rulings = (SetPoints(*p) if p[0] == guilty else LeaveMark(*p) for p in places)
             said = words("desk.none_for", who=self.names[guilty])
             choices.append(DeskChoice(said, tuple(rulings)))
-        choices.append(DeskChoice(words("desk.none_for_all"), tuple(SetPoints(*p) for p in places)))
+        one = len(who) == 1
+        none = words("desk.none_for", who=self.names[who[0]]) if one else words("desk.none_for_all")
+        choices.append(DeskChoice(none, tuple(SetPoints(*p) for p in places)))
         shown = tuple((each, field) for field in fields for each in beside)
         title = words("list_mark").join(self.names[each] for each in who)
         return DeskItem("suspects", title, reason, tuple(places), shown, tuple(choices))

@@ -196,6 +196,16 @@ def test_suspects_are_cleared_or_not(a_class: Path, report: Path) -> None:
     assert found[ids()[5]]["decision"] == "stands: seen"
 
 
+def test_a_ruling_on_one_suspect_names_that_student(a_class: Path, report: Path) -> None:
+    """Only a ruling on several students says that it is for all."""
+    marks = desk(report).of_marks()
+    several = marks.queue.suspected("", ids()[5:7], ids()[5:7], ())
+    alone = marks.queue.suspected("", ids()[6:7], ids()[5:7], ())
+    assert several.choices[-1].said == "0 points for all"
+    assert alone.choices[-1].said == f"0 points for {marks.queue.names[ids()[6]]}"
+    assert [each.who for each in alone.choices[-1].rulings] == ids()[6:7]
+
+
 def test_a_remark_is_shown_at_its_field(a_class: Path, report: Path) -> None:
     session = desk(report)
     item = the(session, "cluster")
