@@ -106,12 +106,12 @@ class DeskQueue(Struct, frozen=True):
                 by_cell[cell.field, cell.text, cell.problem, alone].append((cell.who, cell.field))
         for (field, text, problem, _), places in by_cell.items():
             mark = self.mark(places[0])
-            shown = shown_cell(text.strip())
+            shown = words("desk.quoted", text=shown_cell(text.strip()))
             why = unread(problem, units[field], words, shown_cell(beyond_number(text)))
             yield DeskItem(
                 "cell",
-                self.titled(f"{called(mark, words)}: “{shown}”", places),
-                f"“{shown}” {why}",
+                self.titled(f"{called(mark, words)}: {shown}", places),
+                f"{shown} {why}",
                 tuple(places),
                 tuple(places),
                 (*self.readings(text, problem, places), *self.shares(places, (0, 1))),

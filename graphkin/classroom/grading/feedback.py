@@ -133,9 +133,11 @@ def shows_sentence(cause: EarnedCause, words: Words) -> str:
     return words("feedback.either", cause=shows, other=words(f"shows.{cause.either}"))
 
 
-def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
-    """The row of one field."""
-    open_yet = is_open(graded, mark)
+def row_of(
+    graded: Graded, mark: EarnedMark, words: Words, *, for_marker: bool = False
+) -> FeedbackRow:
+    """The row of one field; one ``for_marker`` keeps no expected value back."""
+    open_yet = is_open(graded, mark) and not for_marker
     cells = (
         quantity(mark, words),
         answer_words(mark, words),
@@ -148,7 +150,7 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
             points=points_words(mark.points, words),
         ),
     )
-    reason = why(graded, mark, words)
+    reason = why(graded, mark, words, is_kept_back=open_yet)
     if mark.answer.written:
         text = escape(safe(mark.answer.text)) or "–"
         reason = f"{words('feedback.read_as', text=text)}; {reason}"
@@ -234,7 +236,7 @@ def off_words(mark: EarnedMark, words: Words) -> str:
     return sign + words.significant(mark.off / mark.item.one, 2)
 
 
-def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
+def why(graded: Graded, mark: EarnedMark, words: Words, *, is_kept_back: bool) -> str:
     """The reason for what a field earned, in one sentence."""
     if mark.status is Status.UNREADABLE:
         rest = escape(safe(beyond_number(mark.answer.text)))
@@ -263,7 +265,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         parts += advice
     elif mark.status is Status.FOLLOWS:
         parts = []
-    elif is_open(graded, mark):
+    elif is_kept_back:
         parts = [words("feedback.kept_back")]
     else:
         parts = [far(mark, words)]
