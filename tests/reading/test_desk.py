@@ -316,7 +316,7 @@ def test_an_appeal_on_what_a_cause_explains_is_about_its_cost(a_class: Path, rep
     session = desk(report)
     item, whole = (session.item(each["name"]) for each in listed(session, "appeal"))
     most = item["sums"][0].split(" of ")[1].split()[0]
-    free = f"no deduction: {most} points for the whole form"
+    free = f"no deduction (points for the whole form: {most})"
     assert "rev/min" in item["causes"][0]
     assert "after a deduction of" in item["sums"][0]
     assert item["choices"] == whole["choices"] == ["the mark stays", free]

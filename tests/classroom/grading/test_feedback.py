@@ -217,10 +217,19 @@ def test_no_text_on_a_page_stands_on_another(lab):
             assert min(wide, high) <= 1e-6, (one, other)
 
 
-def test_one_point_is_not_called_one_points():
-    said = words("en")
-    assert said("feedback.pending", fields="v_C", pending="1").endswith("at v_C (points: 1)")
-    assert "1 points" not in said("feedback.one_mistake", cost="1", cause="the scale was left out")
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(
+    "key",
+    [
+        *("feedback.one_mistake", "feedback.two_mistakes", "feedback.pending"),
+        *("desk.undeducted", "desk.unexplained", "feedback.senses_lost"),
+    ],
+)
+def test_one_point_is_not_called_one_points(key, language):
+    """No number of points stands right before their name, for 1 would need another form."""
+    spoken = words(language)
+    said = spoken(key, **dict.fromkeys(spoken.gaps(key), "1"))
+    assert not re.search(r"\b1 (points?|Punkte|punti|puntos|puncte|балл)", said)
 
 
 def test_a_value_follows_from_its_own_length_by_name():
