@@ -23,7 +23,7 @@ from graphkin.classroom.grading.graded import (
 from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
-from graphkin.construction.core.quantities import CLOCKWISE, TURNING
+from graphkin.construction.core.quantities import CLOCKWISE, TIME_RATIO, TURNING
 from graphkin.drawing.field import A4_AREA, A4_PAGE, text_page
 from graphkin.drawing.frame import on_page, page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -428,15 +428,22 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
     parts += [words("feedback.mistake_shows", where=each) for each in shows]
     open_yet = (Status.WRONG, Status.FOLLOWS)
     left = [mark.item for mark in graded.marks if mark.points and mark.status in open_yet]
-    if not left:
+    if not left and is_followed(graded):
         parts.append(words("feedback.all_follows" if len(causes) == 1 else "feedback.all_follow"))
-    else:
+    elif left:
         fields = ", ".join(dict.fromkeys(item.symbol for item in left))
         parts.append(words("feedback.not_all", fields=fields))
     blank = [m.item.symbol for m in graded.marks if m.points and m.status is Status.BLANK]
     if blank:
         parts.append(words("feedback.left_blank", fields=", ".join(dict.fromkeys(blank))))
     return [" ".join(parts)]
+
+
+def is_followed(graded: Graded) -> bool:
+    """Whether more was wrong than the causes themselves; nothing follows from a time ratio."""
+    caused = (mark.item for mark in graded.marks if mark.status is Status.CAUSE)
+    found = {(item.quantity, item.of) for item in caused if item.quantity != TIME_RATIO.target}
+    return len(found) > len(graded.causes)
 
 
 def is_shown(graded: Graded) -> bool:
