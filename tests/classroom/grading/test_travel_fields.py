@@ -124,17 +124,18 @@ def test_a_time_ratio_turned_over_is_named():
     assert marked(own, half)["H_5"][0] == "WRONG"
 
 
-def test_a_time_ratio_turned_over_is_named_beside_another_slip():
-    """A wrong sense of one rate, in no relation to it, does not hide the cause."""
-    own = standard_of("slotted-lever")
-    sheet = written(own.key) | {f"K_{link}": f"{1 / own.key['K_3']:.3f}" for link in (3, 5)}
-    for field in [each for each in sheet if each.endswith("_sense")]:
-        sheet[field] = "ccw" if own.key[field] > 0 else "cw"
-    slip = next(each for each in sheet if each.startswith("omega") and each.endswith("_sense"))
-    sheet[slip] = "cw" if own.key[slip] > 0 else "ccw"
-    found = marked(own, sheet)
-    assert found["K_3"] == found["K_5"] == ("CAUSE", "ratio_inverted")
-    assert found[slip][0] == "WRONG"
+@pytest.mark.parametrize(("name", "link"), [("slotted-lever", "5"), ("offset-slider-crank", "3")])
+def test_a_time_ratio_turned_over_is_named_beside_another_slip(name, link):
+    """One wrong sense, which has nothing to do with the ratio, does not hide the cause."""
+    mechanism = Mechanism(read_text(text_of(name, f"time_ratios = [{link}]"), name, None, {}))
+    own = standard(mechanism, asked_fields(mechanism).values(), rubric_of(mechanism))
+    right = written(own.key) | {f"K_{link}": f"{1 / own.key[f'K_{link}']:.3f}"}
+    slips = [field for field in right if field.startswith("epsilon") and field.endswith("_sense")]
+    for slip in slips:
+        found = marked(own, right | {slip: "cw" if own.key[slip] > 0 else "ccw"})
+        assert found[f"K_{link}"] == ("CAUSE", "ratio_inverted")
+        assert found[slip][0] == "WRONG"
+    assert slips
 
 
 def test_nothing_is_said_to_follow_from_a_time_ratio():
