@@ -203,7 +203,7 @@ def quantity(mark: EarnedMark, words: Words) -> str:
     item = mark.item
     if item.what == "sense":
         return f"{item.symbol}, {words('table.sense')}"
-    return f"{item.symbol}, {unit_markup(words.spelled(item.unit))}"
+    return ", ".join(filter(None, (item.symbol, unit_markup(words.spelled(item.unit)))))
 
 
 def unit_markup(unit: str) -> str:
@@ -367,7 +367,7 @@ def points_words(points: Fraction, words: Words) -> str:
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
-WIDTHS = (26.0, 34.5, 34.5, 28.2, 19.0, 29.8)
+WIDTHS = (26.0, 34.5, 34.5, 28.2, 21.0, 27.8)
 """The widths of the columns, in mm; the second and third have room for a sense in words."""
 LETTER, SMALL = 2.5, 1.8
 LEADING, ROOM = 4.2, 2.6

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants, constructed
 from graphkin.classroom.grading.class_standards import standards
-from graphkin.classroom.grading.feedback import cause_words
+from graphkin.classroom.grading.feedback import cause_words, quantity
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import asked_fields
@@ -136,6 +136,13 @@ def test_a_time_ratio_turned_over_is_named_beside_another_slip(name, link):
         assert found[f"K_{link}"] == ("CAUSE", "ratio_inverted")
         assert found[slip][0] == "WRONG"
     assert slips
+
+
+def test_a_number_without_a_unit_has_no_comma():
+    own = standard_of("slotted-lever")
+    graded = Marker(own).mark(Taker(Student("1", "s", 1), {}), {})
+    assert quantity(graded.mark("K_5"), words("en")) == own.by_field["K_5"].item.symbol
+    assert quantity(graded.mark("H_5"), words("en")).endswith(", m")
 
 
 def test_nothing_is_said_to_follow_from_a_time_ratio():
