@@ -277,6 +277,7 @@ RARELY_SAID = {
     *(f"page.belt{kind}" for kind in ("_alike", "_fixed", "_fixed_alike", "_crossed_fixed")),
     *("page.slot", "page.slot_beside", "step.trial-2-near", "step.trial-in-2-near"),
     *(f"step.trial-in-{number}-on" for number in (1, 2)),
+    *("ask.strokes_many", "ask.swings_many"),
 }
 """Put together of what they say: of wheels, pins in slots and plans that few scenes have."""
 
