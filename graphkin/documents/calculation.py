@@ -13,7 +13,7 @@ from msgspec import Struct
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import parameters
 from graphkin.construction.core.relation import Relation, Term, VectorEquation
-from graphkin.documents.relations import answers, in_results, relations
+from graphkin.documents.relations import answers, in_results, relations, travel_words
 from graphkin.documents.sheet import title_of
 from graphkin.drawing.field import A4_AREA, A4_SIZE, text_page
 from graphkin.drawing.frame import on_page, page_frame
@@ -31,7 +31,7 @@ from graphkin.drawing.richtext import (
     words_of,
 )
 from graphkin.drawing.symbol_markup import escape
-from graphkin.text import Words
+from graphkin.text import AND, Words
 from graphkin.text.errors import PageError, Problem, message
 from graphkin.writers.latex import formula_of, head, latex, maths
 from graphkin.writers.latex import words as text_of
@@ -201,10 +201,9 @@ def all_rows(
             continue
         words = drawings[0].words
         yield CalculationRow(words(f"calculation.{section}"), heading=True)
-        if solved and section == FIRST:
-            for key in legends(drawings, found):
-                for line in flowed(words_of(words(f"calculation.{key}")), "", ROOM, LETTER):
-                    yield CalculationRow(line, legend=True)
+        for legend in legends(drawings, section, found, solved=solved):
+            for line in flowed(words_of(legend), "", ROOM, LETTER):
+                yield CalculationRow(line, legend=True)
         for relation in found:
             if relation.equation and relation.equation.sums:
                 for part in equation_lines(relation.equation, ROOM, solved=solved):
@@ -232,13 +231,20 @@ def boxed_answers(drawings: Sequence[Drawing]) -> Iterator[CalculationRow]:
             yield CalculationRow(line, boxed=True)
 
 
-def legends(drawings: Sequence[Drawing], found: Sequence[Relation]) -> Iterator[str]:
-    """The keys of the legends below the first heading: readings, and vector equations if any."""
-    yield "readings"
+def legends(
+    drawings: Sequence[Drawing], section: str, found: Sequence[Relation], *, solved: bool
+) -> Iterator[str]:
+    """The sentences below a heading: how solved lines are read, and what travel a task asks for."""
+    words = drawings[0].words
+    if section == "travel" and not solved:
+        yield AND.join(travel_words(drawings[0]))
+    if section != FIRST or not solved:
+        return
+    yield words("calculation.readings")
     if any(relation.equation for relation in found):
-        yield "underlined"
+        yield words("calculation.underlined")
         if any(drawing.auxiliary for drawing in drawings):
-            yield "tried"
+            yield words("calculation.tried")
 
 
 def broken(
@@ -410,9 +416,8 @@ def written(drawings: Sequence[Drawing], *, solved: bool) -> Iterator[str]:
         if not found:
             continue
         yield f"\\subsection*{{{latex(words(f'calculation.{section}'))}}}"
-        if solved and section == FIRST:
-            for key in legends(drawings, found):
-                yield f"\\emph{{{latex(words(f'calculation.{key}'))}}}\n"
+        for legend in legends(drawings, section, found, solved=solved):
+            yield f"\\emph{{{latex(legend)}}}\n"
         for relation in found:
             if relation.equation and relation.equation.sums:
                 yield equation(relation.equation, words, solved=solved)

@@ -28,10 +28,10 @@ from graphkin.construction.core.quantities import (
     BY_TARGET,
     FORCE,
     SHEETS,
-    STROKE,
     TIME_RATIO,
     Whose,
     names_asked,
+    request,
 )
 from graphkin.construction.core.relation import (
     Relation,
@@ -239,10 +239,19 @@ def of_travel(drawing: Drawing) -> Iterator[Relation]:
             result = words.significant(found.value)
             yield Relation(sign, figures=f"{slow} : {fast}", result=result, remark=remark)
             continue
-        unit = drawing.scene.units["length"] if quantity is STROKE else quantity.unit
-        size = drawing.length(found.value) if quantity is STROKE else found.value
-        remark = words("calculation.dead_positions")
-        yield Relation(sign, result=words.significant(size), unit=unit, remark=remark)
+        unit, remark = words.unit(quantity.unit), words("calculation.dead_positions")
+        yield Relation(sign, result=words.significant(found.value), unit=unit, remark=remark)
+
+
+def travel_words(drawing: Drawing) -> list[str]:
+    """The strokes, swings and time ratios that are asked, in words."""
+    ask, links = drawing.scene.ask, drawing.scene.links
+    asked = {
+        "ask.strokes": [name for name in ask.strokes if links[name].slides],
+        "ask.swings": [name for name in ask.strokes if not links[name].slides],
+        "ask.time_ratios": ask.time_ratios,
+    }
+    return [request(drawing.words, key, map(escape, some)) for key, some in asked.items() if some]
 
 
 def once(sections: Iterable[Section]) -> Iterator[Section]:

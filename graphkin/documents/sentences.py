@@ -26,7 +26,7 @@ from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.program import Part, Plane, Step, is_set_on, plan_vector
-from graphkin.construction.core.quantities import FORCE, number_of, quantity_text
+from graphkin.construction.core.quantities import FORCE, number_of, quantity_text, request
 from graphkin.construction.core.relation import Relation, answer, beside_plan
 from graphkin.construction.forces.belt_force import belt_letter
 from graphkin.construction.forces.force_drawing import ForceDrawing
@@ -425,8 +425,7 @@ def forces_asked(drawing: Drawing) -> list[str]:
     found: list[str] = []
     for key, names in asked_by_pair(drawing.scene, forces.reactions).items():
         if names:
-            mentioned = words("list_mark").join(names)
-            found.append(words(f"{key}_many" if len(names) > 1 else key, list=mentioned))
+            found.append(request(words, key, names))
     if forces.balance:
         lever = isinstance(drawing, ForceDrawing) and drawing.extents.lever is not None
         found.append(words("ask.balance_lever" if lever else "ask.balance"))

@@ -27,7 +27,15 @@ from graphkin.construction.core.paper_canvas import (
     draw_part,
 )
 from graphkin.construction.core.program import Plane
-from graphkin.construction.core.quantities import ASKED, FORCE, PLANES, SHEETS, WHOSE
+from graphkin.construction.core.quantities import (
+    ASKED,
+    FORCE,
+    PLANES,
+    SHEETS,
+    TRAVEL,
+    WHOSE,
+    request,
+)
 from graphkin.construction.core.relation import beside_plan, figure
 from graphkin.construction.drivers import driver_symbols
 from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
@@ -1020,19 +1028,20 @@ def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
 
 
 def asked_words(drawing: Drawing) -> Sequence[str]:
-    """The quantities that a sheet asks for, in words."""
+    """The quantities that a sheet asks for, in words; the travel is asked on the calculation."""
     if drawing.kind == FORCE:
         from graphkin.documents.sentences import forces_asked
 
         return forces_asked(drawing)
     words, ask = drawing.words, drawing.scene.ask
     shown = {drawing.kind, "position" if drawing.kind == "velocity" else drawing.kind}
+    of_position = {key: some for key, some in ASKED.items() if some[0] not in TRAVEL}
     found = []
-    for key, some in ASKED.items():
+    for key, some in of_position.items():
         names: tuple[str, ...] = getattr(ask, key)
         if names and any(each.kind in shown for each in some if each.words):
             what = f"slides_{drawing.kind}" if key == "slides" else key
             symbols = (symbol(lettered(n)) if WHOSE[key] == "points" else escape(n) for n in names)
-            mentioned = words("list_mark").join(symbols)
-            found.append(words(f"ask.{what}" + ("_many" if len(names) > 1 else ""), list=mentioned))
-    return found or ([words("ask.for_accelerations")] if ask.anything else [])
+            found.append(request(words, f"ask.{what}", symbols))
+    for_others = any(getattr(ask, key) for key in of_position)
+    return found or ([words("ask.for_accelerations")] if for_others else [])

@@ -203,7 +203,8 @@ class MarkDesk(Struct, dict=True):
         """A field as the student's feedback shows it, as browser markup, with the remark on it."""
         graded = self.queue.graded[place[0]]
         mark = graded.mark(place[1])
-        feedback_row = row_of(replace(graded, remarks={}), undecided(mark), self.words)
+        found = replace(graded, remarks={})
+        feedback_row = row_of(found, undecided(mark), self.words, for_marker=True)
         (remark,) = self.rulings.about(Remark, place)[-1:] or (None,)
         table = self.of_table(place)
         return {

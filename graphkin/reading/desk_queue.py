@@ -109,13 +109,14 @@ class DeskQueue(Struct, frozen=True):
                 alone = cell.who if cell.text.strip() == OPEN else ""
                 by_cell[cell.field, cell.text, cell.problem, alone].append((cell.who, cell.field))
         for (field, text, problem, _), places in by_cell.items():
-            name, cut_out = called(self.mark(places[0]), words), cut_outs[places[0]]
-            shown = shown_cell(text.strip())
+            mark, cut_out = self.mark(places[0]), cut_outs[places[0]]
+            name = called(mark, words)
+            shown = words("desk.quoted", text=shown_cell(text.strip()))
             why = unread(problem, units[field], words, shown_cell(beyond_number(text)))
             yield DeskItem(
                 "cell",
-                self.titled(name if cut_out else f"{name}: “{shown}”", places),
-                words("desk.type_it") if cut_out else f"“{shown}” {why}",
+                self.titled(name if cut_out else f"{name}: {shown}", places),
+                words("desk.type_it") if cut_out else f"{shown} {why}",
                 tuple(places),
                 tuple(places),
                 (*self.readings(text, problem, places), *self.shares(places, (0, 1))),
@@ -216,7 +217,9 @@ class DeskQueue(Struct, frozen=True):
             rulings = (SetPoints(*p) if p[0] == guilty else LeaveMark(*p) for p in places)
             said = words("desk.none_for", who=self.names[guilty])
             choices.append(DeskChoice(said, tuple(rulings)))
-        choices.append(DeskChoice(words("desk.none_for_all"), tuple(SetPoints(*p) for p in places)))
+        one = len(who) == 1
+        none = words("desk.none_for", who=self.names[who[0]]) if one else words("desk.none_for_all")
+        choices.append(DeskChoice(none, tuple(SetPoints(*p) for p in places)))
         shown = tuple((each, field) for field in fields for each in beside)
         title = words("list_mark").join(self.names[each] for each in who)
         return DeskItem("suspects", title, reason, tuple(places), shown, tuple(choices))

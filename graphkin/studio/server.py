@@ -49,6 +49,11 @@ KINDS |= {".woff2": "font/woff2", ".html": "text/html", ".png": "image/png", ".j
 JSON = "application/json"
 
 
+HERE = Path(__file__).parent / "web"
+MARK = "mark.svg"
+"""The icon of every local page."""
+
+
 def new_application(folder: Path) -> Any:
     """A WSGI application with the files of a folder and the fonts of the sheets."""
     from bottle import Bottle
@@ -60,8 +65,9 @@ def new_application(folder: Path) -> Any:
 
 
 def file(folder: Path, name: str) -> Any:
-    """A file of the page, or one of the sheet's fonts."""
-    path = (Path(FONTS) if name in {f"{font}.woff2" for font in FILES.values()} else folder) / name
+    """A file of the page, the mark of graphkin, or one of the sheet's fonts."""
+    shared = dict.fromkeys((f"{font}.woff2" for font in FILES.values()), Path(FONTS))
+    path = (shared | {MARK: HERE}).get(name, folder) / name
     if not path.is_file():
         return answer(404, "text/plain", b"no such file\n")
     return answer(200, KINDS[path.suffix], path.read_bytes())
@@ -135,7 +141,6 @@ def said_in(language: str) -> dict[str, str]:
 # --- the addresses of the studio and its server ---------------------------------------------------
 
 
-HERE = Path(__file__).parent / "web"
 WORK = (
     "look",
     "build",

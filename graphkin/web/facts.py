@@ -9,6 +9,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.quantities import names_asked
 from graphkin.construction.result_tables import result_tables, slide_sense
+from graphkin.documents.relations import travel_words
 from graphkin.documents.sheet import asked_words, members, plan_at
 from graphkin.scene.link_points import lettered
 from graphkin.text.tables import CellTable
@@ -75,4 +76,5 @@ def scales_told(drawing: Drawing) -> tuple[str, str]:
 
 def wanted(drawings: Sequence[Drawing]) -> list[str]:
     """The quantities that a task asks for, one by one, and the links by their points."""
-    return [*(piece for each in drawings for piece in asked_words(each)), members(drawings[0])]
+    asked = [piece for each in drawings for piece in asked_words(each)]
+    return [*asked, *travel_words(drawings[0]), members(drawings[0])]

@@ -19,6 +19,7 @@ from graphkin.construction.core.program import Part, PlanVector, Step, plan_vect
 from graphkin.construction.core.quantities import CENTRES, FORCE
 from graphkin.construction.forces.force_drawing import ForceLayout
 from graphkin.construction.result_tables import unread
+from graphkin.documents.relations import travel_words
 from graphkin.documents.scheme import scheme
 from graphkin.documents.sheet import HEADING, apart, asked_words, checked, data_of, title_of
 from graphkin.documents.sheet_documents import drawn_of, language_of
@@ -297,7 +298,10 @@ def page_of_steps(
             (each.drawing.kind, sheet_name(each), tables_html(facts.results(each.drawing, found)))
             for each in sheets
         ],
-        sought=[piece for sheet in sheets for piece in asked_words(sheet.drawing)],
+        sought=[
+            *(piece for sheet in sheets for piece in asked_words(sheet.drawing)),
+            *travel_words(sheets[0].drawing),
+        ],
         data=[datum.said for datum in given_data],
         datum=place_of(moves.datum, given_data),
         meanings=list(meanings(drawing.words, sheets)),

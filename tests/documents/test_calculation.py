@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from math import cos, pi, radians, sin, sqrt, tan
+from pathlib import Path
 
 import pytest
 
@@ -17,15 +18,21 @@ from graphkin.documents.calculation import (
     BY_HAND,
     LINE,
     CalculationRow,
+    all_rows,
     calculation,
     laid_out,
 )
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
+from graphkin.documents.sheet import asked_words
 from graphkin.documents.sheet_documents import drawings_of
 from graphkin.drawing.marks import Page, Polyline
+from graphkin.drawing.richtext import plain
 from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism
+from graphkin.scene import scene_files
 from graphkin.scene.link_points import lettered
+from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from tests.chosen import CHOSEN, HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
@@ -411,3 +418,23 @@ def test_the_box_at_the_end_has_every_number_that_is_asked(name):
     for left, size in wanted.items():
         value, unit = last_digit(said[left])
         assert abs(value - size) < 0.51 * unit + 1e-9 * size, left
+
+
+def test_strokes_are_requested_where_their_boxes_are_and_swings_of_links_only():
+    """The calculation asks for a block's stroke and a link's swing; no plan's sheet asks for it."""
+    text = Path(scene_files.find("slotted-lever")).read_text(encoding="utf-8")
+    text = text.replace("[ask]", "[ask]\nstrokes = [3, 5]\ntime_ratios = [5]")
+    mechanism = Mechanism(read_text(text, "slotted-lever", None, {}))
+    verdict = mechanism.witness(mechanism.solve())
+    drawings = drawings_of(mechanism, verdict, words("en"))
+    rows = [plain(row.markup) for row in all_rows(drawings, {}, solved=False)]
+    asked = (
+        "the stroke of block 5, between its dead positions",
+        "the swing of link 3, between its dead positions",
+        "the time ratio of link 5",
+    )
+    below = " ".join(rows[rows.index("Strokes and time ratios") + 1 :])
+    assert "; ".join(asked) in below
+    assert not {*asked} & {each for drawing in drawings for each in asked_words(drawing)}
+    solved = " ".join(plain(row.markup) for row in all_rows(drawings, {}, solved=True))
+    assert not any(each in solved for each in asked)

@@ -4,12 +4,19 @@ from __future__ import annotations
 
 import json
 import re
+from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.documents.sheet_documents import hand_out
+from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.standard import standard
+from graphkin.classroom.lab.items import asked_fields
+from graphkin.classroom.lab.lab_model import Rubric
+from graphkin.documents.relations import of_travel
+from graphkin.documents.sheet_documents import drawings_of, hand_out
 from graphkin.drawing.marks import LineMark, Text
 from graphkin.drawing.richtext import plain
 from graphkin.mechanism import Mechanism, load
@@ -180,6 +187,32 @@ def test_solve_prints_inches_and_its_json_si(run: Run, tmp_path) -> None:
     )
     assert si["scales"]["kL"] == pytest.approx(INCH * own["scales"]["kL"])  # per metre of paper
     assert si["scales"]["kv"] == pytest.approx(INCH * own["scales"]["kv"])
+
+
+@pytest.mark.parametrize(
+    ("length", "name", "field"),
+    [
+        ("mm", "offset-slider-crank", "H_3"),
+        ("in", "offset-slider-crank", "H_3"),
+        ("mm", "slotted-lever", "swing_3"),
+    ],
+)
+def test_the_calculation_and_the_form_ask_for_travel_in_one_unit(length, name, field):
+    """A student who copies the calculated stroke or swing to the form is right."""
+    text = (
+        Path(scene_files.find(name))
+        .read_text(encoding="utf-8")
+        .replace("[ask]", "[ask]\nstrokes = [3]")
+    )
+    text = text.replace('length = "mm"', f'length = "{length}"')
+    mechanism = Mechanism(read_text(text, name, None, {}))
+    fields = asked_fields(mechanism)
+    own = standard(mechanism, fields.values(), Rubric(points={field: Fraction(1)}))
+    measured = mechanism.measured
+    verdict = measured.witness(measured.solve())
+    (asked,) = of_travel(drawings_of(measured, verdict, words("en", length=measured.scene.base))[0])
+    assert asked.unit == fields[field].unit
+    assert read_answer(asked.result, fields[field]).value == pytest.approx(own.key[field], rel=1e-3)
 
 
 def test_a_class_in_inches_is_marked_in_inches(run: Run, tmp_path) -> None:

@@ -25,6 +25,7 @@ from graphkin.construction.result_tables import WIDTHS
 from graphkin.documents import VIEWS
 from graphkin.documents.calculation import calculation
 from graphkin.documents.centre_tables import centre_words, pole_words
+from graphkin.documents.relations import travel_words
 from graphkin.documents.sheet import Moved, asked_words
 from graphkin.documents.sheet_documents import (
     CALCULATED,
@@ -93,6 +94,7 @@ def every_page(mechanism: Mechanism, spoken: Words, views: Sequence[str] = ("key
     pages: list[Page] = []
     for drawing in drawings:
         asked_words(drawing)
+        travel_words(drawing)
     for view in views:
         made = [partial(calculation, drawings, view)]
         made += [partial(one_page, drawing, view) for drawing in drawings]
@@ -275,6 +277,7 @@ RARELY_SAID = {
     *(f"page.belt{kind}" for kind in ("_alike", "_fixed", "_fixed_alike", "_crossed_fixed")),
     *("page.slot", "page.slot_beside", "step.trial-2-near", "step.trial-in-2-near"),
     *(f"step.trial-in-{number}-on" for number in (1, 2)),
+    *("ask.strokes_many", "ask.swings_many"),
 }
 """Put together of what they say: of wheels, pins in slots and plans that few scenes have."""
 

@@ -6,11 +6,13 @@ import csv
 import io
 import json
 import random
+import re
 from math import pi
 from pathlib import Path
 from shutil import copytree
 from threading import Thread
 from typing import Any
+from wsgiref.util import setup_testing_defaults
 
 import pytest
 
@@ -174,6 +176,21 @@ def test_like_cells_are_read_once_and_marked(a_class: Path, report: Path) -> Non
     assert "decisions: 2 decided, 0 still open" in graded(a_class, report)
 
 
+def test_a_cell_that_waits_shows_the_marker_its_key(a_class: Path, report: Path) -> None:
+    """The expected value with its tolerance, which the student's feedback keeps back."""
+    session = desk(report)
+    item = the(session, "cell")
+    rows = {row["who"].rpartition("(")[2][:-1]: row["cells"] for row in item["rows"]}
+    opened = read_edition(a_class / "class")
+    for taker in opened.takers[3:5]:
+        own = opened.book.marker(taker.settings, taker.compute).standard
+        one, tolerance = own.by_field["v_C"].item.one, own.tolerance["v_C"].value
+        expected, allowed = rows[taker.student.id][2:4]
+        assert float(expected) == pytest.approx(abs(own.key["v_C"]) / one, rel=1e-3)
+        assert float(allowed) == pytest.approx(tolerance / one, rel=0.1)
+        assert f">{expected}<" not in feedback(report, taker.student.id)
+
+
 def test_a_reading_is_of_the_cell_that_was_read(a_class: Path, report: Path) -> None:
     """Whoever hands in again is read again."""
     session = desk(report)
@@ -194,6 +211,40 @@ def test_suspects_are_cleared_or_not(a_class: Path, report: Path) -> None:
     assert found[ids()[6]]["points"] == "0"
     assert found[ids()[6]]["decision"].startswith("decided, was")
     assert found[ids()[5]]["decision"] == "stands: seen"
+
+
+@pytest.mark.parametrize(
+    ("language", "quotes"), [("de", "„“"), ("en", "“”"), ("fr", "«»"), ("ro", "„”"), ("ru", "«»")]
+)
+def test_a_cell_is_quoted_as_the_language_quotes(report: Path, language: str, quotes: str) -> None:
+    item = the(DeskSession(report, words(language)), "cell")
+    before, after = quotes
+    for said in (item["title"], item["told"]):
+        assert said.count(before) == said.count(after) == 1
+        assert not {*"„“”«»"}.difference(quotes) & {*said}
+
+
+def test_all_that_the_desk_page_loads_is_served(report: Path) -> None:
+    """Its icon too: a browser would ask for one that the guard refuses."""
+    session = desk(report)
+    found = re.findall(r'(?:href|src)="([^"]+)"', desk_page(session).decode())
+    assert "mark.svg" in found
+    app, states = desk_application(session), []
+    for name in found:
+        environ = {"PATH_INFO": f"/{name}", "REQUEST_METHOD": "GET"}
+        setup_testing_defaults(environ)
+        app(environ, lambda status, *_: states.append(status))
+    assert {*states} == {"200 OK"}
+
+
+def test_a_ruling_on_one_suspect_names_that_student(a_class: Path, report: Path) -> None:
+    """Only a ruling on several students says that it is for all."""
+    marks = desk(report).of_marks()
+    several = marks.queue.suspected("", ids()[5:7], ids()[5:7], ())
+    alone = marks.queue.suspected("", ids()[6:7], ids()[5:7], ())
+    assert several.choices[-1].said == "0 points for all"
+    assert alone.choices[-1].said == f"0 points for {marks.queue.names[ids()[6]]}"
+    assert [each.who for each in alone.choices[-1].rulings] == ids()[6:7]
 
 
 def test_a_remark_is_shown_at_its_field(a_class: Path, report: Path) -> None:
@@ -265,7 +316,7 @@ def test_an_appeal_on_what_a_cause_explains_is_about_its_cost(a_class: Path, rep
     session = desk(report)
     item, whole = (session.item(each["name"]) for each in listed(session, "appeal"))
     most = item["sums"][0].split(" of ")[1].split()[0]
-    free = f"no deduction: {most} points for the whole form"
+    free = f"no deduction (points for the whole form: {most})"
     assert "rev/min" in item["causes"][0]
     assert "after a deduction of" in item["sums"][0]
     assert item["choices"] == whole["choices"] == ["the mark stays", free]

@@ -236,7 +236,8 @@ def test_every_place_that_is_asked_has_a_row_with_its_coordinates():
     wanted = {f"I{name}" for name in (*ask.centres, *ask.pairs)}
     wanted |= {f"J{name}" for name in ask.poles} | {f"W{name}" for name in ask.inflection}
     wanted |= {f"Ω{lettered(name)}" for name in ask.curvature}
-    assert {*places_in(text)} == wanted
+    travel = {"quantity", "ψ3", "H5", "K5"}  # a table of its own, with one value in a row
+    assert {*places_in(text)} - travel == wanted
     bar = (FOLDER / "inflection-cardan.toml").read_text(encoding="utf-8")
     assert places_in(bar) == {"W2": ["0", "0"]}
 

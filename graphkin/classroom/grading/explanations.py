@@ -570,7 +570,7 @@ class AnswerSheets(Struct, frozen=True, dict=True):
     def judged_enough(self, i: int, found: SheetCauses) -> SheetCauses | None:
         """An explanation with the answers that agree; None where these are too few."""
         fits, read = self.fits(i, found), self.is_read[i]
-        missed = self.missed[i] & read
+        missed = self.missed[i] & read & self.reach(i, found)
         spoilt = (read & ~fits & ~self.beside_wrong(i, found, fits)).sum() > SPOILS * read.sum()
         fitting = [f for f, fit in zip(self.variants.fields, fits, strict=True) if fit]
         agreeing = replace(found, fits=frozenset(fitting))
@@ -582,6 +582,13 @@ class AnswerSheets(Struct, frozen=True, dict=True):
         if not self.turns_all(i, agreeing) and not self.is_nearer(i, found):
             return None
         return agreeing
+
+    def reach(self, i: int, by: SheetCauses) -> Array:
+        """The fields that an explanation could change: nothing follows from a time ratio."""
+        values = np.array([by.values[field] for field in self.variants.fields])
+        changed = ~np.isclose(values, self.key[i], rtol=1e-9)
+        ratios = self.form.ratios
+        return ratios if changed.any() and not (changed & ~ratios).any() else np.ones_like(ratios)
 
     def is_mostly(self, i: int, by: SheetCauses) -> Array:
         """The numbers that are far from the key and near what an explanation gives.

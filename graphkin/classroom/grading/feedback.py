@@ -24,7 +24,7 @@ from graphkin.classroom.grading.graded import (
 from graphkin.classroom.lab.lab_model import Rubric
 from graphkin.classroom.printing.personal import printable_name
 from graphkin.construction.core.given_data import set_parameters
-from graphkin.construction.core.quantities import CLOCKWISE, TURNING
+from graphkin.construction.core.quantities import CLOCKWISE, TIME_RATIO, TURNING
 from graphkin.drawing.field import A4_AREA, A4_PAGE, text_page
 from graphkin.drawing.frame import on_page, page_frame
 from graphkin.drawing.marks import LineMark, Mark, Page, Text
@@ -135,9 +135,11 @@ def shows_sentence(cause: EarnedCause, words: Words) -> str:
     return words("feedback.either", cause=shows, other=words(f"shows.{cause.either}"))
 
 
-def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
-    """The row of one field."""
-    open_yet = is_open(graded, mark)
+def row_of(
+    graded: Graded, mark: EarnedMark, words: Words, *, for_marker: bool = False
+) -> FeedbackRow:
+    """The row of one field; one ``for_marker`` keeps no expected value back."""
+    open_yet = is_open(graded, mark) and not for_marker
     cells = (
         quantity(mark, words),
         answer_words(mark, words),
@@ -150,7 +152,7 @@ def row_of(graded: Graded, mark: EarnedMark, words: Words) -> FeedbackRow:
             points=points_words(mark.points, words),
         ),
     )
-    reason = why(graded, mark, words)
+    reason = why(graded, mark, words, is_kept_back=open_yet)
     if mark.answer.written:
         text = escape(safe(mark.answer.text)) or "–"
         reason = f"{words('feedback.read_as', text=text)}; {reason}"
@@ -205,7 +207,7 @@ def quantity(mark: EarnedMark, words: Words) -> str:
     item = mark.item
     if item.what == "sense":
         return f"{item.symbol}, {words('table.sense')}"
-    return f"{item.symbol}, {unit_markup(words.spelled(item.unit))}"
+    return ", ".join(filter(None, (item.symbol, unit_markup(words.spelled(item.unit)))))
 
 
 def unit_markup(unit: str) -> str:
@@ -238,7 +240,7 @@ def off_words(mark: EarnedMark, words: Words) -> str:
     return sign + words.significant(mark.off / mark.item.one, 2)
 
 
-def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
+def why(graded: Graded, mark: EarnedMark, words: Words, *, is_kept_back: bool) -> str:
     """The reason for what a field earned, in one sentence."""
     if mark.status is Status.UNREADABLE:
         rest = escape(safe(beyond_number(mark.answer.text)))
@@ -267,7 +269,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words) -> str:
         parts += advice
     elif mark.status is Status.FOLLOWS:
         parts = []
-    elif is_open(graded, mark):
+    elif is_kept_back:
         parts = [words("feedback.kept_back")]
     else:
         parts = [far(mark, words)]
@@ -369,7 +371,7 @@ def points_words(points: Fraction, words: Words) -> str:
 
 LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
-WIDTHS = (26.0, 34.5, 34.5, 28.2, 19.0, 29.8)
+WIDTHS = (26.0, 34.5, 34.5, 28.2, 21.0, 27.8)
 """The widths of the columns, in mm; the second and third have room for a sense in words."""
 LETTER, SMALL = 2.5, 1.8
 LEADING, ROOM = 4.2, 2.6
@@ -430,15 +432,22 @@ def cause_words(graded: Graded, words: Words) -> list[str]:
     parts += [words("feedback.mistake_shows", where=each) for each in shows]
     open_yet = (Status.WRONG, Status.FOLLOWS)
     left = [mark.item for mark in graded.marks if mark.points and mark.status in open_yet]
-    if not left:
+    if not left and is_followed(graded):
         parts.append(words("feedback.all_follows" if len(causes) == 1 else "feedback.all_follow"))
-    else:
+    elif left:
         fields = ", ".join(dict.fromkeys(item.symbol for item in left))
         parts.append(words("feedback.not_all", fields=fields))
     blank = [m.item.symbol for m in graded.marks if m.points and m.status is Status.BLANK]
     if blank:
         parts.append(words("feedback.left_blank", fields=", ".join(dict.fromkeys(blank))))
     return [" ".join(parts)]
+
+
+def is_followed(graded: Graded) -> bool:
+    """Whether more was wrong than the causes themselves; nothing follows from a time ratio."""
+    caused = (mark.item for mark in graded.marks if mark.status is Status.CAUSE)
+    found = {(item.quantity, item.of) for item in caused if item.quantity != TIME_RATIO.target}
+    return len(found) > len(graded.causes)
 
 
 def is_shown(graded: Graded) -> bool:

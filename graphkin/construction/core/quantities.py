@@ -6,7 +6,7 @@ solution, and the names and units in reports, forms and measurements.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import degrees
 from typing import Any, Literal, NewType
 
@@ -340,6 +340,12 @@ def in_mm(words: Words, length: OnPaper) -> str:
     """A drawn length in mm as printed; one too short for a ruler is printed as <0.01."""
     under = f"<\N{NO-BREAK SPACE}{words.fixed(0.01, 2)}"
     return under if ROUNDING < abs(length) < 0.005 else words.fixed(length, 2)
+
+
+def request(words: Words, key: str, names: Iterable[str]) -> str:
+    """The request for a quantity of one or several owners, whose names are markup."""
+    every = tuple(names)
+    return words(f"{key}_many" if len(every) > 1 else key, list=words("list_mark").join(every))
 
 
 def quantity_text(scene: Scene, words: Words, quantity: Quantity) -> str:

@@ -12,7 +12,14 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.class_report import summary
 from graphkin.classroom.grading.explanations import ways_of
-from graphkin.classroom.grading.feedback import feedback_html, feedback_pages, rows
+from graphkin.classroom.grading.feedback import (
+    COLUMNS,
+    HEADS,
+    columns,
+    feedback_html,
+    feedback_pages,
+    rows,
+)
 from graphkin.classroom.grading.graded import Answer, Graded, Result, Status
 from graphkin.classroom.grading.grading_files import marks_table, read_marks
 from graphkin.drawing.marks import Page, Text, reach
@@ -217,10 +224,26 @@ def test_no_text_on_a_page_stands_on_another(lab):
             assert min(wide, high) <= 1e-6, (one, other)
 
 
-def test_one_point_is_not_called_one_points():
-    said = words("en")
-    assert said("feedback.pending", fields="v_C", pending="1").endswith("at v_C (points: 1)")
-    assert "1 points" not in said("feedback.one_mistake", cost="1", cause="the scale was left out")
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(
+    "key",
+    [
+        *("feedback.one_mistake", "feedback.two_mistakes", "feedback.pending"),
+        *("desk.undeducted", "desk.unexplained", "feedback.senses_lost"),
+    ],
+)
+def test_one_point_is_not_called_one_points(key, language):
+    """No number of points stands right before their name, for 1 would need another form."""
+    spoken = words(language)
+    said = spoken(key, **dict.fromkeys(spoken.gaps(key), "1"))
+    assert not re.search(r"\b1 (points?|Punkte|punti|puntos|puncte|балл)", said)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_heads_of_the_columns_are_of_one_size(language):
+    heads = [words(language)(HEADS[name]) for name in COLUMNS]
+    sizes = {mark.height for mark in columns(heads, 0.0) if isinstance(mark, Text)}
+    assert len(sizes) == 1
 
 
 def test_a_value_follows_from_its_own_length_by_name():

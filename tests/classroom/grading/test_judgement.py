@@ -115,7 +115,7 @@ def test_one_value_a_little_beyond_on_a_good_sheet_is_right_and_the_page_says_wh
     assert mark.is_together
     assert mark.earned == mark.points
     for language, word in (("en", "together"), ("ro", "împreună"), ("it", "insieme")):
-        assert word in why(graded, mark, Words(language))
+        assert word in why(graded, mark, Words(language), is_kept_back=False)
     near = marker.mark(taker(12), moved(12, omega_4=0.9)[1]).mark("omega_4")
     assert not near.is_together
 

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants, constructed
 from graphkin.classroom.grading.class_standards import standards
+from graphkin.classroom.grading.feedback import cause_words, quantity
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import asked_fields
@@ -21,6 +22,7 @@ from graphkin.classroom.roster.students import Student, Taker
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
+from graphkin.text import words
 from graphkin.text.errors import SceneError
 
 TRAVELS = {
@@ -120,6 +122,38 @@ def test_a_time_ratio_turned_over_is_named():
     assert found["swing_3"] == ("RIGHT", "")
     half = written(own.key) | {"H_5": f"{own.key['H_5'] / 2:.4f}"}
     assert marked(own, half)["H_5"][0] == "WRONG"
+
+
+@pytest.mark.parametrize(("name", "link"), [("slotted-lever", "5"), ("offset-slider-crank", "3")])
+def test_a_time_ratio_turned_over_is_named_beside_another_slip(name, link):
+    """One wrong sense, which has nothing to do with the ratio, does not hide the cause."""
+    mechanism = Mechanism(read_text(text_of(name, f"time_ratios = [{link}]"), name, None, {}))
+    own = standard(mechanism, asked_fields(mechanism).values(), rubric_of(mechanism))
+    right = written(own.key) | {f"K_{link}": f"{1 / own.key[f'K_{link}']:.3f}"}
+    slips = [field for field in right if field.startswith("epsilon") and field.endswith("_sense")]
+    for slip in slips:
+        found = marked(own, right | {slip: "cw" if own.key[slip] > 0 else "ccw"})
+        assert found[f"K_{link}"] == ("CAUSE", "ratio_inverted")
+        assert found[slip][0] == "WRONG"
+    assert slips
+
+
+def test_a_number_without_a_unit_has_no_comma():
+    own = standard_of("slotted-lever")
+    graded = Marker(own).mark(Taker(Student("1", "s", 1), {}), {})
+    assert quantity(graded.mark("K_5"), words("en")) == own.by_field["K_5"].item.symbol
+    assert quantity(graded.mark("H_5"), words("en")).endswith(", m")
+
+
+def test_nothing_is_said_to_follow_from_a_time_ratio():
+    """A time ratio enters no other field of the form."""
+    own = standard_of("slotted-lever")
+    sheet = written(own.key) | {f"K_{link}": f"{1 / own.key['K_3']:.3f}" for link in (3, 5)}
+    answers = {field: read_answer(text, own.by_field[field].item) for field, text in sheet.items()}
+    graded = Marker(own).mark(Taker(Student("1", "s", 1), {}), answers)
+    (said,) = cause_words(graded, words("en"))
+    assert "the time ratio was turned over" in said
+    assert "follow" not in said
 
 
 def test_a_crank_drawn_twice_as_long_explains_stroke_and_plans_at_once():
