@@ -250,7 +250,7 @@ def test_asked_strokes_and_time_ratios_are_among_the_results():
     assert not found["problems"]
     told = {row[0]: row[1:] for row in rows(found["results"])}
     assert told["ψ3"] == ["47.16°"]
-    assert told["H5"] == ["496.0 mm"]
+    assert told["H5"] == ["0.4960 m"]
     assert told["K5"] == ["1.710"]
     (wrong,) = seen(text.replace("strokes = [3, 5]", "strokes = [3, 1]"))["problems"]
     assert "ask.strokes[1]" in str(wrong)
