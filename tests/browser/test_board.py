@@ -338,9 +338,9 @@ def test_what_a_typed_line_lacks_is_named(kept: Opened, pump: Path):
         assert page.locator("#turn-sentence").inner_text() == ""
 
 
-def test_a_crossing_is_of_right_lines_before_ones_own(kept: Opened, pump: Path):
+def test_a_crossing_is_of_right_lines_before_ones_own(opened: Opened, pump: Path):
     """Also where a line of one's own, on which a normal component lies, is drawn between them."""
-    page = begun(kept, pump, 29)
+    page = begun(opened, pump, 29)
     assert typed(page, "par a'AB").endswith("nBA lies on it.")
     typed(page, "lay a'aBAn", "1", "perp nBA AB", "lay o'aBn", "1", "perp nB O2B")
     assert typed(page, "x").startswith("b′: right.")

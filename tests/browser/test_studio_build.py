@@ -67,6 +67,7 @@ def test_a_planet_is_built_from_an_empty_field(hand, tmp_path):
     hand.take("bar")
     assert hand.page.locator("#canvas").bounding_box()["y"] == pytest.approx(upper, abs=0.1)
     hand.page.set_viewport_size({"width": 1440, "height": 900})
+    hand.page.evaluate(PAINTED)
     hand.settled(lambda: hand.drag("wheel", 0, 60))
     hand.bar("O1", 100j)
     hand.settled(lambda: hand.drag("wheel", hand.place("A"), 60j))
