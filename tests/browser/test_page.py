@@ -139,7 +139,6 @@ VISIBLE = """name => [...document.querySelectorAll(`#sheet-0 [data-name='${name}
   .some(mark => mark.checkVisibility({ visibilityProperty: true }))"""
 
 
-
 def test_the_page_begins_with_the_whole_mechanism_and_the_task(kept: Opened, pages: Path):
     page = kept(pages / "pump.html", "#step=0", **DESKTOP)
     assert page.locator("#count").inner_text() == "The task"

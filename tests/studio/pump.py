@@ -19,7 +19,6 @@ from graphkin.studio.session import PageRequest, Session
 PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 
 
-
 def line_with(words: str) -> int:
     """The number of the line of the pump's text that has some words."""
     return PUMP[: PUMP.index(words)].count("\n") + 1
