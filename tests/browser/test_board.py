@@ -302,10 +302,10 @@ WRONG = {
 
 
 @pytest.mark.parametrize("line", WRONG)
-def test_a_wrong_line_is_answered_with_what_would_come_of_it(kept: Opened, pump: Path, line: str):
+def test_a_wrong_line_is_answered_with_what_would_come_of_it(opened: Opened, pump: Path, line: str):
     """In red on the drawing, until the next move, and without a word of what is not drawn."""
     step, before, cause, comes = WRONG[line]
-    page = begun(kept, pump, step)
+    page = begun(opened, pump, step)
     typed(page, *before)
     known = drawn(page)
     said = typed(page, line)

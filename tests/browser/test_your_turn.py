@@ -108,8 +108,9 @@ def begun(opened: Opened, pages: Path, name: str, step: int | str, **options: An
     page.locator("#turn").click()
     page.locator("#turn-panel").wait_for()
     page.evaluate(PAINTED)
-    if (again := page.locator("#turn-again")).is_visible():
-        again.dblclick()
+    again = page.locator("#turn-again")
+    while again.is_visible():  # a turn that was left: sure, and again
+        again.click()
         page.evaluate(PAINTED)
     return page
 
