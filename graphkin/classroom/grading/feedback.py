@@ -128,7 +128,7 @@ def cause_sentence(cause: EarnedCause, words: Words) -> str:
 
 
 def shows_sentence(cause: EarnedCause, words: Words) -> str:
-    """Where a cause shows on the drawing, and how one of two that may be meant is told."""
+    """Where a cause shows on the drawing, and what to say where either of two may be meant."""
     shows = words("shows.own" if cause.said else f"shows.{cause.name}")
     if not cause.either:
         return shows

@@ -272,8 +272,8 @@ def belt_strands(
             end = pen.draw(strand_end, *centres, *radii, edge, extra=(belt.sense,))
         inputs = moments.about, edge, number, *moments.steps
         with pen.on(Part.FORCE, Plane.NUMBERS):
-            told = *moments.extra, float(side), float(RULES.index(key))
-            force = pen.draw(strand_force, *inputs, extra=told)
+            fixed = *moments.extra, float(side), float(RULES.index(key))
+            force = pen.draw(strand_force, *inputs, extra=fixed)
         found = BeltStrand(
             name=names[strand],
             link=link,
