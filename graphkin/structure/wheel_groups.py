@@ -30,6 +30,7 @@ from graphkin.structure.pairs import (
     Joints,
     Leading,
     Pin,
+    Placed,
     Sliding,
     contacts,
     partner,
@@ -315,7 +316,7 @@ class PinnedWheel(Struct, frozen=True):
 
 
 def pinned_wheels(
-    joints: Joints, links: Sequence[str], placing: Collection[Joint], known: Collection[str]
+    placed: Placed, links: Sequence[str], placing: Collection[Joint]
 ) -> tuple[PinnedWheel, ...]:
     """The wheels or bars of a group that touch known links in rolling contact.
 
@@ -325,11 +326,11 @@ def pinned_wheels(
     return tuple(
         PinnedWheel(pair, link, partner(pair, link))
         for link in links
-        for pair in joints.others[link]
+        for pair in placed.joints.others[link]
         if isinstance(pair, Contact)
         and pair.rolling.belt is None
         and pair in placing
-        and partner(pair, link) in known
+        and partner(pair, link) in placed.known
         and (pair.arm in links or (pair.track is None and pair.links[0] == link))
     )
 
@@ -342,17 +343,17 @@ def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
     return None
 
 
-def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> Spun | None:
+def spun(placed: Placed, driver: Driver, link: str) -> Spun | None:
     """A link that a driver turns and that rolls on a known wheel, on an arm or block of its own."""
-    joined = joints.between(link, known)
+    joined = placed.held(link)
     if len(joined) != 1 or not isinstance(joined[0], Contact) or joined[0].alike:
         return None
     if driver.link != link:
         return None
     contact, holder = joined[0], joined[0].arm
-    if holder is None or holder in known:
+    if holder is None or holder in placed.known:
         return None
-    pivots, held = joints.between(holder, known), joints.inner(link, holder, known)
+    pivots, held = placed.held(holder), placed.inner(link, holder)
     if len(pivots) != 1 or len(held) != 1 or not isinstance(pivots[0], Pin):
         return None
     rolls = isinstance(held[0], Pin) if contact.track else contact.links[1] == link
@@ -362,17 +363,14 @@ def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> S
     return Spun(link, driver, holder, pivots[0], held[0], contact)
 
 
-def train_with(
-    joints: Joints, known: Collection[str], arm: str, left: tuple[Joint, ...]
-) -> Train | None:
+def train_with(placed: Placed, arm: str, left: tuple[Joint, ...]) -> Train | None:
     """The arm of a planet that rolls on two known links, such as a sun and a ring."""
     if len(left) != 1 or not isinstance(left[0], Pin):
         return None
-    for wheel in joints.neighbours(arm):
-        if wheel in known:
+    for wheel in placed.joints.neighbours(arm):
+        if wheel in placed.known:
             continue
-        inner = joints.inner(arm, wheel, known)
-        outer = joints.between(wheel, known)
+        inner, outer = placed.inner(arm, wheel), placed.held(wheel)
         rolled = [pair for pair in outer if isinstance(pair, Contact) and not pair.alike]
         contacts = [pair for pair in rolled if pair.arm == arm]
         if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
@@ -414,32 +412,32 @@ def tracks_held(joints: Joints, links: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(link for link in tracks if link in links))
 
 
-def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
+def wedged_wheels(placed: Placed, links: Sequence[str]) -> tuple[str, ...]:
     """The links that roll on several straight tracks of known links."""
     straight = {
-        link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
+        link: [p for p in placed.held(link) if isinstance(p, Contact) and not p.track]
         for link in links
     }
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
 
 
-def let_slip(joints: Joints, known: Collection[str]) -> Joints:
-    """The pairs without the wheels that determine nothing until their arm is known."""
-    every = [pair for pairs in joints.others.values() for pair in pairs]
+def let_slip(placed: Placed) -> Placed:
+    """The mechanism without the wheels that determine nothing until their arm is known."""
+    every = [pair for pairs in placed.joints.others.values() for pair in pairs]
     rolling = (pair for pair in every if isinstance(pair, Contact) and pair.arm is not None)
-    return joints.without([pair for pair in rolling if pair.arm not in known])
+    loose = [pair for pair in rolling if pair.arm not in placed.known]
+    return placed.by(placed.joints.without(loose))
 
 
-def over_rolled(
-    joints: Joints, known: Collection[str], grown: Collection[str], chain: Sequence[Any]
-) -> Contact | None:
+def over_rolled(placed: Placed, grown: Placed, chain: Sequence[Any]) -> Contact | None:
     """A wheel that is known with all that it touches, but whose rolling is not used yet."""
     used = [pair for group in chain for pair in rolled_by(group)]
-    for link in (each for each in joints.unknown(known) if each in grown):
+    joints = grown.joints
+    for link in (each for each in joints.unknown(placed.known) if each in grown.known):
         for pair in joints.others[link]:
             if not isinstance(pair, Contact) or pair.arm is None or pair.alike or pair in used:
                 continue
-            if pair.needs <= {*grown} and not keeps_parallel(joints, pair):
+            if pair.needs <= grown.known and not keeps_parallel(joints, pair):
                 return pair
     return None
 
@@ -488,56 +486,53 @@ def rolled_by(group: Any) -> Iterator[Contact]:
     yield from (pair for pair in (*pairs, last) if isinstance(pair, Contact))
 
 
-def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
+def next_coupled(placed: Placed, *, idle: bool = False) -> CoupledTrain | None:
     """The train of fewest links that closes once one link on a known pin is tried.
 
     A train whose ratios cancel closes in every position of the link, and so does not determine it.
     An example is two planets between one sun and one ring. With ``idle`` only these are found,
     otherwise only others.
     """
-    contacts = [*left_over(joints, known)]
+    contacts = [*left_over(placed)]
     if not contacts:
         return None
     found = (
         train
-        for link in joints.unknown(known)
-        for pin in pins_held(joints, known, link)
+        for link in placed.unknown()
+        for pin in pins_held(placed, link)
         for last in contacts
-        if (train := closed(joints, known, TriedLink(link, pin), last))
-        and idle == cancels(joints.scene, train)
+        if (train := closed(placed, TriedLink(link, pin), last))
+        and idle == cancels(placed.scene, train)
     )
     return min(found, key=lambda train: len(train.links), default=None)
 
 
-def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
+def left_over(placed: Placed) -> Iterator[Contact]:
     """The contacts of wheels with known ones, about arms that are not known yet."""
-    for link in joints.unknown(known):
-        for pair in joints.others[link]:
+    for link in placed.unknown():
+        for pair in placed.joints.others[link]:
             if not isinstance(pair, Contact) or pair.track is None or pair.alike:
                 continue
-            if pair.arm in known:
-                continue
-            if partner(pair, link) in known:
+            if pair.arm not in placed.known and partner(pair, link) in placed.known:
                 yield pair
 
 
-def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
+def pins_held(placed: Placed, link: str) -> list[Pin]:
     """The one pin that holds a link, if nothing else removes two freedoms."""
-    held = [pair for pair in joints.between(link, known) if pair.taken == 2]
+    held = [pair for pair in placed.held(link) if pair.taken == 2]
     return [pair for pair in held if isinstance(pair, Pin)] if len(held) == 1 else []
 
 
-def closed(
-    joints: Joints, known: Collection[str], tried: TriedLink, last: Contact
-) -> CoupledTrain | None:
+def closed(placed: Placed, tried: TriedLink, last: Contact) -> CoupledTrain | None:
     """The train formed by a tried link and a last contact, wheel after wheel, or None."""
-    grown, chain, ends = {*known, tried.link}, list[Geared](), {*last.links, last.arm}
-    while not ends <= {*grown}:
-        wheel = next_wheel(joints, grown, last)
+    grown = Placed(placed.joints, {*placed.known, tried.link})
+    chain, ends = list[Geared](), {*last.links, last.arm}
+    while not ends <= grown.known:
+        wheel = next_wheel(grown, last)
         if wheel is None:
             return None
         chain.append(wheel)
-        grown.add(wheel.link)
+        grown.known.add(wheel.link)
     needs, kept = ends, list[Geared]()
     for each in reversed(chain):
         if each.link in needs:
@@ -546,11 +541,11 @@ def closed(
     return CoupledTrain(tried, tuple(kept), last) if tried.link in needs else None
 
 
-def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared | None:
+def next_wheel(placed: Placed, last: Contact) -> Geared | None:
     """The first wheel, in written order, that a wheel of a known link turns about a known pin."""
-    for link in joints.unknown(known):
-        joined = tuple(pair for pair in joints.between(link, known) if pair != last)
-        wheel = geared_of(link, joined, known)
+    for link in placed.unknown():
+        joined = tuple(pair for pair in placed.held(link) if pair != last)
+        wheel = geared_of(link, joined, placed.known)
         if wheel is None or wheel.contact.track is None or wheel.contact.alike:
             continue
         if isinstance(wheel.pair, Pin):
