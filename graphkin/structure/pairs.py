@@ -27,29 +27,8 @@ from graphkin.scene.model import (
     link_words,
     of_one_size,
 )
-from graphkin.structure.turning import body, guides_under, turns
+from graphkin.structure.turning import body
 from graphkin.text.errors import StructureError, both, message
-
-__all__ = [
-    "Contact",
-    "ContactName",
-    "Joint",
-    "Leading",
-    "Pair",
-    "Pin",
-    "PinLine",
-    "Sliding",
-    "all_pairs",
-    "contacts",
-    "guides_under",
-    "is_in_scene",
-    "meshes",
-    "name_words",
-    "pairs",
-    "refuse_loose",
-    "sharers",
-    "turns",
-]
 
 
 class Pin(Struct, frozen=True):
