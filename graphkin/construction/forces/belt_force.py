@@ -270,10 +270,8 @@ def belt_strands(
         with pen.on(Part.FORCE, Plane.MECHANISM):
             edge = pen.draw(strand_edge, *centres, *radii, extra=(belt.sense, side))
             end = pen.draw(strand_end, *centres, *radii, edge, extra=(belt.sense,))
-        inputs = moments.about, edge, number, *moments.steps
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            fixed = *moments.extra, float(side), float(RULES.index(key))
-            force = pen.draw(strand_force, *inputs, extra=fixed)
+        fixed = float(side), float(RULES.index(key))
+        force = moments.balanced(pen, strand_force, edge, number, extra=fixed)
         found = BeltStrand(
             name=names[strand],
             link=link,

@@ -140,9 +140,7 @@ def along_line(
     """The force along the step of a line that balances moments; its step."""
     with pen.on(Part.FORCE, Plane.MECHANISM):
         end = pen.draw(foot_on_line, moments.about, line)
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        inputs = moments.about, end, line
-        force = pen.draw(line_force, *inputs, *moments.steps, extra=moments.extra)
+    force = moments.balanced(pen, line_force, end, line)
     found = LineForce(
         name=name,
         number=number,

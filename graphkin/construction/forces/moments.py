@@ -23,7 +23,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure
-from graphkin.construction.core.vocabulary import action
+from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.forces.loads import (
     LinkForce,
     force_amount,
@@ -201,6 +201,14 @@ class Moments(Struct, frozen=True):
     def extra(self) -> tuple[float, ...]:
         """The number of pairs, after the inputs."""
         return (float(sum(t.foot is not None for t in self.terms)),)
+
+    def balanced(
+        self, pen: Pen, action: Action, *inputs: int, extra: tuple[float, ...] = ()
+    ) -> int:
+        """The force or moment that balances them by an action, from the point and other inputs."""
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            steps = self.about, *inputs, *self.steps
+            return pen.draw(action, *steps, extra=(*self.extra, *extra))
 
     def values(self, drawing: Drawing) -> Iterator[tuple[MomentTerm, float, float, float]]:
         """Each term with its moment in N·m, its force in N and its arm in mm on paper."""
@@ -606,6 +614,5 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
 
 def balance_of(pen: Pen, name: str, link: str, moments: Moments) -> int:
     """The balancing moment of a driven crank."""
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        moment = pen.draw(balancing_moment, moments.about, *moments.steps, extra=moments.extra)
+    moment = moments.balanced(pen, balancing_moment)
     return pen.make(BalancingMoment(name=name, link=link, moments=moments, moment=moment)).moment

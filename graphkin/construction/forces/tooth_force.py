@@ -214,10 +214,7 @@ def tooth(
     Teeth push the wheel ``outward`` from the point of the moments, or towards it.
     """
     slant = (-1 if outward else 1) * math.tan(math.radians(angle))
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        force = pen.draw(
-            tooth_force, moments.about, pitch, *moments.steps, extra=(*moments.extra, slant)
-        )
+    force = moments.balanced(pen, tooth_force, pitch, extra=(slant,))
     found = ToothForce(
         name=name, link=link, angle=angle, moments=moments, pitch=pitch, force=force, across=across
     )
