@@ -15,7 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Slip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure, put_in
+from graphkin.construction.core.relation import Relation, answer, put_in
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.loads import STRANDS, force_amount, newtons, sub
 from graphkin.construction.forces.moments import (
@@ -193,9 +193,7 @@ class BeltStrand(ForceByMoments, frozen=True, kw_only=True):
 
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The radius of the wheel."""
-        edge, about = (drawing.trace.values[n] for n in (self.edge, self.moments.about))
-        radius = figure(drawing, drawing.on_paper(abs(edge - about)))
-        return [(of_wheel("r", self.sign), radius)]
+        return [(of_wheel("r", self.sign), self.reach(drawing, self.edge))]
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The difference of both tensions from the moments, then each tension."""

@@ -106,18 +106,6 @@ def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
         canvas.leg("right-angle", "square-mark", corner + first + second, corner + second)
 
 
-def line_arm(canvas: Canvas, names: tuple[str, str], about: Any, through: Any, foot: Any) -> None:
-    """Draw a line of action from a point to the foot on it, and the arm as a dimension.
-
-    ``names`` are those of the force and of its arm.
-    """
-    force, arm = names
-    canvas.leg(force, "ray", through, foot)
-    canvas.dimension(arm, about, foot)
-    along = foot - through
-    right_angle(canvas, foot, about, along if canvas.size(along) > SEEN else 1j * (about - foot))
-
-
 @action("left-couple")
 def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
     """The couple of a guide without a reaction that balances the moments about a point."""
@@ -134,7 +122,7 @@ def slanted(kind: ForceArm, foot: Any, get: Callable[[int], Any]) -> Any:
 
 def about_outer(kind: TangentialPart, force: Any, get: Callable[[int], Any]) -> Any:
     """The part of a reaction by arms about the outer pin, each with its right sense."""
-    outer, inner = get(kind.outer), get(kind.inner)
+    outer, inner = get(kind.outer), get(kind.moments.about)
     total: Any = 0.0
     for term in kind.moments.terms:
         if term.foot is None or term.force is None:
@@ -315,6 +303,11 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The arm of the force on paper as a product: each factor in symbols and in figures."""
 
+    def reach(self, drawing: Drawing, end: int) -> str:
+        """The drawn distance of a step from the point of the moments, in figures."""
+        values = drawing.trace.values
+        return figure(drawing, drawing.on_paper(abs(values[end] - values[self.moments.about])))
+
     def below(self, drawing: Drawing) -> tuple[str, str]:
         """The arm that divides the sum, in symbols and in figures."""
         metres = any(each.in_metres(drawing) for each in self.every)
@@ -376,7 +369,6 @@ class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
     link: str
     ends: tuple[str, str]
     outer: int
-    inner: int
 
     def sentence_key(self, drawing: Drawing) -> str:
         return "step.force-tangential"
@@ -393,8 +385,7 @@ class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
 
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The bar."""
-        outer, inner = (drawing.trace.values[end] for end in (self.outer, self.inner))
-        return [(bar(*self.ends), figure(drawing, drawing.on_paper(abs(outer - inner))))]
+        return [(bar(*self.ends), self.reach(drawing, self.outer))]
 
 
 class PlaceOnGuide(Construction, frozen=True, kw_only=True):
@@ -518,7 +509,6 @@ def tangential(
         link=link,
         ends=ends,
         outer=outer,
-        inner=moments.about,
         moments=moments,
         force=force,
     )
