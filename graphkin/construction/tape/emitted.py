@@ -21,62 +21,12 @@ from msgspec import Struct, field
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace, Values, is_array, run_batch, run_blocks
 from graphkin.construction.core.solution import with_least_margin
-from graphkin.construction.tape.graph import Graph, Node
+from graphkin.construction.tape.graph import OPERATIONS, Graph, Node
 from graphkin.construction.tape.traced import TracedNumber, UntraceableError, parts_named, traced
 from graphkin.numbers.arithmetic import batch_kind, np
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
-ARRAYS = {
-    "add": "add",
-    "sub": "subtract",
-    "mul": "multiply",
-    "min": "minimum",
-    "max": "maximum",
-    "over": "divide",
-    "neg": "negative",
-    "abs": "absolute",
-    "sqrt": "sqrt",
-    "round": "rint",
-    "floor": "floor",
-    "cos": "cos",
-    "sin": "sin",
-    "sin45": "sin",
-    "atan2": "arctan2",
-}
-"""The numpy function of an operation that fills an array of numbers."""
-TRUTHS = {
-    "less": "less",
-    "at_most": "less_equal",
-    "equal": "equal",
-    "both": "logical_and",
-    "either": "logical_or",
-    "not": "logical_not",
-}
-"""The numpy function of an operation that gives a condition."""
-LOOP = {
-    "add": "{} + {}",
-    "sub": "{} - {}",
-    "mul": "{} * {}",
-    "over": "1.0 / {}",
-    "min": "{0} if {0} <= {1} else {1}",
-    "max": "{1} if {0} <= {1} else {0}",
-    "neg": "-{}",
-    "abs": "abs({})",
-    "sqrt": "sqrt({})",
-    "round": "rint({})",
-    "floor": "floor({})",
-    "cos": "cos({})",
-    "sin": "sin({})",
-    "sin45": "sin45({})",
-    "atan2": "atan2({}, {})",
-    "less": "{} < {}",
-    "at_most": "{} <= {}",
-    "equal": "{} == {}",
-    "both": "{} & {}",
-    "either": "{} | {}",
-    "not": "not {}",
-    "choose": "{1} if {0} else {2}",
-}
+LOOP = {op: each.loop for op, each in OPERATIONS.items()}
 """The expression of an operation in a loop over single numbers."""
 CALLS = frozenset({"cos", "sin", "atan2"})
 """Operations that call a library for each number: a compiler cannot vectorize them."""
@@ -166,14 +116,14 @@ class ScratchArrays:
     def statement(self, number: int, node: Node) -> str:
         """The call that computes a node."""
         args = [self.name[arg] for arg in node.args]
-        if node.op in TRUTHS or node.op == "choose":
-            function, letter = (TRUTHS[node.op], "c") if node.op in TRUTHS else ("where", "w")
-            self.name[number] = f"{letter}{number}"
-            return f"{letter}{number} = {function}({', '.join(args)})"
+        own = OPERATIONS[node.op]
+        if own.decides:
+            self.name[number] = name = f"{'w' if node.op == 'choose' else 'c'}{number}"
+            return f"{name} = {own.array}({', '.join(args)})"
         self.name[number] = array = self.take(number)
         if node.op == "over":
             args.insert(0, self.constant("1.0"))
-        return f"{ARRAYS[node.op]}({', '.join(args)}, out={array})"
+        return f"{own.array}({', '.join(args)}, out={array})"
 
 
 # --- a loop over single numbers ------------------------------------------------------------------
@@ -400,33 +350,9 @@ def sin45(x: float) -> float:
     return x + x * (z * s)
 
 
-SIGNS = {
-    "add": "{}+{}",
-    "sub": "{}-{}",
-    "mul": "{}*{}",
-    "over": "1/{}",
-    "neg": "-{}",
-    "less": "{}<{}",
-    "at_most": "{}<={}",
-    "equal": "{}=={}",
-    "both": "{}&&{}",
-    "either": "{}||{}",
-    "not": "!{}",
-    "choose": "{}?{}:{}",
-}
+SIGNS = {op: each.sign for op, each in OPERATIONS.items() if each.sign}
 """Operations written with operators; each argument is a name, a number or in brackets."""
-JS_CALLS = {
-    "min": "min",
-    "max": "max",
-    "abs": "abs",
-    "sqrt": "sqrt",
-    "round": "round",
-    "floor": "floor",
-    "cos": "cos",
-    "sin": "sin",
-    "sin45": "sin",
-    "atan2": "atan2",
-}
+JS_CALLS = {op: each.call for op, each in OPERATIONS.items() if each.call}
 """Operations that are functions of JavaScript's Math."""
 MATH = "const {" + ",".join(sorted(set(JS_CALLS.values()))) + "}=Math;"
 """The line that declares those functions by name."""
@@ -434,8 +360,8 @@ DEEP = 40
 """Maximum nesting of operations: parsers have limits."""
 LONG = 6
 """Number of characters from which a repeated number gets a name."""
-BINDING = {"mul": 3, "over": 3, "add": 2, "sub": 2, "less": 1, "at_most": 1}
-"""Precedence of operators; an argument with higher precedence needs no brackets."""
+BRACKETED = 4
+"""Precedence of an operator whose arguments have brackets if they have any operator."""
 SIGNS_OF_NAMES = "abcdefghijklmnopqrstuvwz$_ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """What names begin with."""
 
@@ -504,7 +430,7 @@ class Writer:
         text, own = self.text[number], self.graph.nodes[number].op
         if not self.depth[number] or own not in SIGNS:
             return text
-        holds, wants = BINDING.get(own, 0), BINDING.get(op, 4)
+        holds, wants = OPERATIONS[own].binds, OPERATIONS[op].binds or BRACKETED
         return text if holds > wants or (holds == wants and not last) else f"({text})"
 
 

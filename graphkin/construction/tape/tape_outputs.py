@@ -11,18 +11,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from graphkin.construction.tape.graph import FOLD, Graph, Node
-from graphkin.construction.tape.traced import COMPARE, TracedNumber, Truth, entered
+from graphkin.construction.tape.graph import OPERATIONS, Graph, Node
+from graphkin.construction.tape.traced import TracedNumber, Truth, entered
 from graphkin.numbers.arithmetic import np
 
-TRUTHS: Mapping[str, Callable[..., Any]] = {
-    **COMPARE,
-    "both": lambda a, b: bool(a) and bool(b),
-    "either": lambda a, b: bool(a) or bool(b),
-    "not": lambda a: not a,
-    "choose": lambda condition, yes, no: yes if condition else no,
-}
-"""The value of an operation that gives or uses a condition."""
 NOWHERE = -1
 """The index of an output that does not exist."""
 
@@ -92,20 +84,15 @@ def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> 
     if node.op == "input":
         return inputs[node.name]
     args = [values[arg] for arg in node.args]
-    if node.op in TRUTHS:
-        return TRUTHS[node.op](*args)
     try:
-        return FOLD[node.op](*args)
+        return OPERATIONS[node.op].value(*args)
     except (ValueError, OverflowError):
         return math.nan
 
 
 def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
     """Some outputs as a function of arrays of inputs, all of the same length."""
-    from graphkin.construction.tape.emitted import ARRAYS
-    from graphkin.construction.tape.emitted import TRUTHS as CONDITIONS
-
-    known = {**ARRAYS, **CONDITIONS, "choose": "where", "over": "reciprocal"}
+    known = {op: each.array for op, each in OPERATIONS.items()} | {"over": "reciprocal"}
     order = [(number, graph.nodes[number]) for number in graph.needed(outputs)]
     calls = [
         (number, node, getattr(np, known[node.op]) if node.op in known else None)
