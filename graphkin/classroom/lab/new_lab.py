@@ -20,7 +20,6 @@ from graphkin.classroom.grading.readings import FormFields
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.fair_ranges import FairRanges, ends, fair_ranges, space_of
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.fairness_words import draw_words, limit_words
 from graphkin.classroom.lab.items import (
     all_fields,
     arrow_items,
@@ -46,7 +45,7 @@ from graphkin.classroom.lab.lab_model import (
     ValueList,
     exact_text,
 )
-from graphkin.classroom.lab.lab_trial import CLASS, LabTrial, tried
+from graphkin.classroom.lab.lab_trial import CLASS, LabTrial, draw_words, limit_words, tried
 from graphkin.classroom.lab.read_lab import LAB, SCENE, lab_of
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
