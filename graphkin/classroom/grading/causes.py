@@ -25,7 +25,8 @@ from graphkin.accuracy.pencil import (
     marked,
     together,
 )
-from graphkin.classroom.grading.standard import FormLayout, Standard, round_the_turn, ruler_unit
+from graphkin.classroom.grading.end_positions import round_the_turn
+from graphkin.classroom.grading.standard import FormLayout, Standard, ruler_unit
 from graphkin.construction.core.bases import crank_tip
 from graphkin.construction.core.component import component_of
 from graphkin.construction.core.crossings import Determined

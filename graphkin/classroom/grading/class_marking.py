@@ -20,6 +20,7 @@ from graphkin.accuracy.pencil import PencilMark
 from graphkin.classroom.grading.class_look import look_at_class, look_for_another_lab
 from graphkin.classroom.grading.copied_answers import copies, wrong_variants
 from graphkin.classroom.grading.decisions import by_student, settled, with_decisions
+from graphkin.classroom.grading.end_positions import travel_keys
 from graphkin.classroom.grading.explanations import CauseWay, SheetCauses, ways_of
 from graphkin.classroom.grading.graded import (
     WAITING,
@@ -48,7 +49,6 @@ from graphkin.classroom.grading.standard import (
     pencil_of,
     standard,
     standard_at,
-    travel_keys,
     with_force_scales,
 )
 from graphkin.classroom.lab.items import items

@@ -68,7 +68,7 @@ from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.model import DRIVEN, JOINED
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from graphkin.text.errors import GraphkinError, Problem, SceneError, message
+from graphkin.text.errors import GraphkinError, SceneError, message
 from graphkin.text.tables import Say, labelled, table
 from graphkin.writers.files import RESERVED, refuse_folder, write_all
 
@@ -412,7 +412,7 @@ def check_name(name: str) -> None:
     if not NAME.fullmatch(name) or name.upper() in RESERVED:
         expected = message("letters, digits, - and _, at most 60, such as crank-lab")
         hint = message("-o DIR says in which folder it is made")
-        raise SceneError(Problem(f'"{name}"', message("is no name for a lab"), expected, hint))
+        raise SceneError.at(f'"{name}"', message("is no name for a lab"), expected, hint)
 
 
 class OwnLab(Struct, frozen=True):
