@@ -1,6 +1,7 @@
 """Guides in the plane: their lines, where lines cross, and links set at a coordinate on them.
 
-A driver or the closure of a group gives the coordinate, on a guide or on a track.
+A driver or the closure of a group gives the coordinate, on a guide or on a track. Parallel bars
+give a link the direction of a known one.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, Apart, At, GuideOrTrack, OnLine, Slide
+from graphkin.structure.groups import KeptParallel
 from graphkin.structure.pairs import PinLine, Sliding
 from graphkin.structure.turning import guide_on
 
@@ -639,3 +641,45 @@ def set_carrier(
     link, on = pair
     pen.make(CarrierSetByCoordinate(link=link, on=on, path=zero, where=where, point=point))
     return point
+
+
+# --- links that parallel bars keep parallel to a known link ---------------------------------------
+
+
+class KeptDirection(Construction, frozen=True, kw_only=True):
+    """The direction of a ``link`` that ``bars`` keep parallel to the link ``lead``."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"turn": "why.parallel"}
+    pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
+    titled: ClassVar[str] = "the direction of link {link}"
+
+    link: str
+    lead: str
+    bars: tuple[str, ...]
+    turn: OwnStep
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The sentence that names the bars and the link to which they keep it parallel."""
+        if role != "turn":
+            return ""
+        words = drawing.words
+        listed = words("list_mark").join(map(escape, self.bars))
+        key = "step.kept-still" if self.lead == FRAME else "step.kept-parallel"
+        return words(key, k=escape(self.link), lead=escape(self.lead), list=listed)
+
+
+def keep_parallel(pen: Pen, group: KeptParallel) -> None:
+    """Draw the direction of the link, from set to set of bars."""
+    here = group.lead
+    if not pen.turns(here):
+        pen.shifting |= {group.link}
+    turn = pen.given("one") if here == FRAME else axis(pen, here)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        for each in group.sets:
+            near, far = each.links if each.links[0] == here else each.links[::-1]
+            for link, draw in ((near, axis_with_guide), (far, axis_by_guide)):
+                ends = (local_place(pen, link, point) for point in each.line_on(link))
+                turn = pen.draw(draw, turn, *ends)
+            here = far
+    pen.make(KeptDirection(link=group.link, lead=group.lead, bars=group.bars, turn=turn))
+    pen.want("axis", group.link, turn)
