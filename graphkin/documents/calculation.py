@@ -31,7 +31,7 @@ from graphkin.drawing.richtext import (
     words_of,
 )
 from graphkin.drawing.symbol_markup import escape
-from graphkin.text import AND, Words
+from graphkin.text import Words
 from graphkin.text.errors import PageError, Problem, message
 from graphkin.writers.latex import formula_of, head, latex, maths
 from graphkin.writers.latex import words as text_of
@@ -237,7 +237,7 @@ def legends(
     """The sentences below a heading: how solved lines are read, and what travel a task asks for."""
     words = drawings[0].words
     if section == "travel" and not solved:
-        yield AND.join(travel_words(drawings[0]))
+        yield words.clauses(travel_words(drawings[0]))
     if section != FIRST or not solved:
         return
     yield words("calculation.readings")

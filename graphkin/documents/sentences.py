@@ -48,7 +48,7 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol, without_index
 from graphkin.scene.forces import ByDriver, Directed, Load, Size
 from graphkin.scene.link_points import ends_of, lettered
 from graphkin.scene.model import Link, Scene
-from graphkin.text import AND, names_in
+from graphkin.text import names_in
 
 
 class IndexNote(NamedTuple):
@@ -170,7 +170,7 @@ def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | Non
     ]
     if not lengths:
         return turning
-    turning = AND + turning if turning else ""
+    turning = words("clause_mark") + turning if turning else ""
     set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
     if names := dict.fromkeys(set_on):
         key = "step.read-off" if len(names) > 1 else "step.read-off-one"

@@ -36,6 +36,9 @@ UNIT_LETTERS: Mapping[str, Mapping[str, str]] = {
     }
 }
 """How languages write the parts of units: GOST 8.417-2002 has Cyrillic letters."""
+NARROW = "\N{NARROW NO-BREAK SPACE}"
+FRENCH = " (?=[;:?!»])|(?<=«) "
+"""The blanks of a French sentence that end no line."""
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 """The Italian words for "to" and "and" before a word that begins with the same vowel."""
@@ -73,7 +76,10 @@ class Words:
         from pathlib import Path
 
         text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
-        found = Sentences(flattened(tomllib.loads(text)))
+        found = Sentences(
+            (key, spaced(said) if self.language == "fr" else said)
+            for key, said in flattened(tomllib.loads(text))
+        )
         if self.signs is USUAL and self.length == "m":
             return found
         signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
@@ -108,6 +114,10 @@ class Words:
     def open(self, key: str) -> str:
         """The sentence under a key, with its fields unchanged for a page to fill in."""
         return self(key, **{name: f"{{{name}}}" for name in self.gaps(key)})
+
+    def clauses(self, parts: Iterable[str]) -> Markup:
+        """Clauses in one sentence."""
+        return self("clause_mark").join(parts)
 
     def has(self, key: str) -> bool:
         """Whether there is a sentence under a key."""
@@ -154,6 +164,11 @@ def words(language: str, signs: SchoolSigns = USUAL, length: str = "m") -> Words
     if language not in LANGUAGES:
         raise KeyError(language)
     return Words(language, USUAL if signs == USUAL else signs, length)
+
+
+def spaced(sentence: str) -> str:
+    """A French sentence, whose blanks at ; : ? ! and inside « » are narrow and end no line."""
+    return re.sub(FRENCH, NARROW, sentence)
 
 
 def keys() -> list[str]:
@@ -217,8 +232,6 @@ def as_text(value: object) -> str:
 
 NOTHING = Markup()
 """The empty separator."""
-AND = Markup("; ")
-"""The separator of clauses in one sentence."""
 COMMA = Markup(", ")
 """The separator of a list."""
 EQUALS = Markup(" = ")

@@ -135,7 +135,8 @@ def test_no_metre_is_left_on_paper(view: str, language: str) -> None:
 def test_relations_follow_from_their_figures_in_inches() -> None:
     found = texts(Mechanism(read_text(INCHES, "x")), "key")
     assert "vA = ω1·OA = 12.5664·2 = 25.13 in/s (⊥ OA)" in found
-    assert "kL = 0.0393701 in/mm (scale 1:1)" in found
+    assert "kL = 1 in/in = 0.0393701 in/mm (scale 1:1)" in found
+    assert any("kL = 1 in/in" in each and each.startswith("Mechanism, scale") for each in found)
     assert "OA/kL = 2/0.0393701 = 50.8 mm (drawn)" in found
 
 

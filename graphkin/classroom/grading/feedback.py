@@ -278,7 +278,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words, *, is_kept_back: bool) -
     elif mark.status is Status.FOLLOWS:
         source = source_words(graded, mark)
         parts.append(words("feedback.follows", source=source, share=percent(mark)))
-    return "; ".join(parts)
+    return words.clauses(parts)
 
 
 def source_words(graded: Graded, mark: EarnedMark) -> str:
@@ -491,10 +491,10 @@ def settings_words(graded: Graded, words: Words, scene: Scene | None) -> str:
     settings = graded.taker.settings
     if scene is None:
         pairs = [f"{escape(name)} = {words.decimal(value)}" for name, value in settings.items()]
-        return "; ".join(pairs)
+        return words.clauses(pairs)
     exact = {name: Fraction(value) for name, value in settings.items()}
     own = replace(scene, values={**scene.values, **exact})
-    return "; ".join(set_parameters(own, words, settings))
+    return words.clauses(set_parameters(own, words, settings))
 
 
 def how(rubric: Rubric, words: Words) -> str:

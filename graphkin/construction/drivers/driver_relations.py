@@ -16,6 +16,7 @@ from graphkin.construction.core.naming import (
     length_scale,
     sense,
     speed_symbol,
+    stated_scale,
 )
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import RATES, number_of, unit_words
@@ -30,7 +31,7 @@ from graphkin.construction.core.relation import (
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.velocity.turned_vectors import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
-from graphkin.scene.model import FRAME, Angled, Driver
+from graphkin.scene.model import FRAME, IMPERIAL, Angled, Driver
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
 
@@ -164,7 +165,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(
         drawing.in_signs("*k*_L"),
         "",
-        "",
+        stated_scale(drawing) if words.length in IMPERIAL else "",
         number,
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),
