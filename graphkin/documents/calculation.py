@@ -227,7 +227,7 @@ def boxed_answers(drawings: Sequence[Drawing]) -> Iterator[CalculationRow]:
     ]
     if found:
         yield CalculationRow(drawings[0].words("calculation.answers"), heading=True, boxed=True)
-        for line in flowed(found, ";", ROOM - INDENT, LETTER):
+        for line in flowed(found, drawings[0].words("clause_mark"), ROOM - INDENT, LETTER):
             yield CalculationRow(line, boxed=True)
 
 
@@ -356,7 +356,7 @@ def page_of(
 ) -> Page:
     """One page."""
     words = drawing.words
-    title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
+    title = words.clauses([escape(title_of(drawing)), *parameters(drawing.scene, words)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
     sheet = drawing.scene.sheet
     made, whose = escape(sheet.author), escape(sheet.student)

@@ -14,8 +14,14 @@ LANGUAGES = ("de", "en", "es", "fr", "it", "ro", "ru")
 ENGLISH = "en"
 """The language of the sentences that another one does not have yet."""
 MINUS = "\N{MINUS SIGN}"
+IMPERIAL = ("in", "ft")
+"""The units of length in which forces are in pounds, and results are printed if none are stated."""
+MECHANICAL = {"kg·m²": "{force}·s²·{length}", "kg": "{force}·s²/{length}"}
+"""The coherent units of inertia and mass in other units of length than metres."""
 METRE = r"(?<![\w*{'’])m(?=/s|/mm|$)"
 """A metre in a unit: m, m/s, (m/s²)/mm, m/mm."""
+NEWTON = r"(?<![\w*{{’]){N}(?=/{mm})"
+"""A newton in the unit of a scale factor in a sentence, with the letters of the language."""
 RATE = r"(?<![\w*{{'’]){m}(?=/{s})"
 """A metre in a unit in a sentence, with the letters of the language."""
 UNIT_LETTERS: Mapping[str, Mapping[str, str]] = {
@@ -33,6 +39,8 @@ UNIT_LETTERS: Mapping[str, Mapping[str, str]] = {
         "N": "Н",
         "kN": "кН",
         "kg": "кг",
+        "lb": "фунт",
+        "lbf": "фунт-сила",
     }
 }
 """How languages write the parts of units: GOST 8.417-2002 has Cyrillic letters."""
@@ -85,11 +93,26 @@ class Words:
         signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
         rate = RATE.format(m=self.spelled("m"), s=self.spelled("s"))
         length = self.spelled(self.length)
-        return Sentences({key: re.sub(rate, length, said) for key, said in signed.items()})
+        newton = NEWTON.format(N=self.spelled("N"), mm=self.spelled("mm"))
+        return Sentences(
+            {
+                key: re.sub(newton, self.force, re.sub(rate, length, said))
+                for key, said in signed.items()
+            }
+        )
+
+    @property
+    def force(self) -> str:
+        """The unit of forces that goes with the unit of lengths."""
+        return self.spelled("lbf" if self.length in IMPERIAL else "N")
 
     def unit(self, unit: str) -> str:
-        """A unit of results, whose metres are these lengths: in/s for m/s."""
-        return self.spelled(unit if self.length == "m" else re.sub(METRE, self.length, unit))
+        """A unit of results, whose metres are these lengths: in/s for m/s, lbf·in for N·m."""
+        if self.length == "m":
+            return self.spelled(unit)
+        own = MECHANICAL.get(unit, re.sub(METRE, self.length, unit))
+        own = own.format(force="N", length=self.length)
+        return self.spelled(re.sub(r"\bN\b", self.force, own))
 
     def spelled(self, unit: str) -> str:
         """A unit as it is in the letters of the language: мм/с for mm/s in Russian."""

@@ -22,9 +22,9 @@ from graphkin.construction.core.quantities import (
 from graphkin.construction.core.vocabulary import join
 from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, escape, symbol
-from graphkin.scene.model import FRAME, IMPERIAL, At, Driver, GuideOrTrack, Link, Scene
+from graphkin.scene.model import FRAME, At, Driver, GuideOrTrack, Link, Scene
 from graphkin.scene.quantity import Quantity, shortest
-from graphkin.text import NOTHING, Words
+from graphkin.text import IMPERIAL, NOTHING, Words
 
 NAUGHT = 1e-6
 """A vector drawn shorter than this, in mm, counts as zero."""

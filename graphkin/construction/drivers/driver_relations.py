@@ -31,9 +31,10 @@ from graphkin.construction.core.relation import (
 from graphkin.construction.rate_relations import of_sum
 from graphkin.construction.velocity.turned_vectors import TurnedVelocity
 from graphkin.drawing.symbol_markup import bar, escape, symbol
-from graphkin.scene.model import FRAME, IMPERIAL, Angled, Driver
+from graphkin.scene.model import FRAME, Angled, Driver
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
+from graphkin.text import IMPERIAL
 
 OMEGA = 6
 """Significant digits of the driver's angular velocity, on which all later numbers depend."""
