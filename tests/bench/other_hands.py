@@ -283,9 +283,8 @@ def camera(shot: OtherShot) -> Callable[[Any], Any]:
     tilted, _ = cv2.Rodrigues(axis * lean)
     spun, _ = cv2.Rodrigues(np.array([0, 0, np.pi / 2 * shot.turn + 0.03]))
     focal = 0.95 * width
-    across = WIDE if shot.turn % 2 == 0 else HIGH * width / height
-    away = 1.12 * focal * max(across / width, (WIDE + HIGH - across) / height / 1.2)
-    away *= 1 + 0.55 * np.sin(lean)
+    wide, high = (WIDE, HIGH) if shot.turn % 2 == 0 else (HIGH, WIDE)
+    away = 1.12 * focal * max(wide / width, high / height) * (1 + 0.55 * np.sin(lean))
 
     def where(places: Any) -> Any:
         x, y = places[..., 0] - WIDE / 2, places[..., 1] - HIGH / 2
@@ -329,13 +328,15 @@ def photographed(sheet: Any, shot: OtherShot, rng: Any) -> bytes:
     spots = dense * DENSITY - 0.5
     seen = cv2.remap(seen, spots[..., 0], spots[..., 1], cv2.INTER_LINEAR, borderValue=0)
     on = (dense >= 0).all(-1) & (dense[..., 0] < WIDE) & (dense[..., 1] < HIGH)
-    table = np.array([60, 90, 120], np.float32) + rng.normal(0, 6, (height, width, 1))
-    seen = np.where(on[..., None], seen * 0.9, table)
+    noise = rng.normal(0, 2.5, (256, 256, 3)).astype(np.float32)
+    noise = np.tile(noise, (height // 256 + 1, width // 256 + 1, 1))[:height, :width]
+    table = np.array([60, 90, 120], np.float32)
+    seen = np.where(on[..., None], seen * np.float32(0.9), table)
     light = 1 - shot.side * (columns / columns.max()) ** 1.5
     if shot.crease:
         light = light * (1 - 0.08 * (dense[..., 0] > WIDE / 2) - 0.05 * (dense[..., 1] > HIGH / 2))
     seen = cv2.GaussianBlur(seen * light[..., None].astype(np.float32), (0, 0), 0.6)
-    seen += rng.normal(0, 2.5, seen.shape)
+    seen += noise
     options = [cv2.IMWRITE_JPEG_QUALITY, shot.quality]
     ok, data = cv2.imencode(".jpg", np.clip(seen, 0, 255).astype(np.uint8), options)
     assert ok
