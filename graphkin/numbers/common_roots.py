@@ -71,6 +71,10 @@ ROUNDED = 1e-14
 """Step below which such a share is found, but for rounding."""
 STILL = 1e-10
 """Step at which Newton's method has converged, in radians or shares of a way."""
+SETTLED = 1e-14
+"""The step that would come next at a limit, by how much steps shrink."""
+ROUNDING = 64 * 2.0**-52
+"""The misfit at a limit, as a share of its slopes times the trial values."""
 CLOSED = 1e-9
 """The largest misfit at a closure, as a share of its whole range."""
 
@@ -242,29 +246,42 @@ def closed_in(
 
 
 def roots_beside(missed: Misses, start: Array) -> Array:
-    """The limits of Newton's method from starts (K, n); NaN where it does not converge."""
-    share, left = start.copy(), np.arange(len(start))
-    for _ in range(ROUNDS):
-        way = steps_about(missed, left, share[left])
+    """The limits of Newton's method from starts (K, n); NaN where it does not converge.
+
+    A short step alone is no limit: beside a flat dyad misfits grow like a square root, and steps
+    may swing from side to side of the root.
+    """
+    share, left, last = start.copy(), np.arange(len(start)), np.ones(len(start))
+    for turn in range(ROUNDS):
+        way, rounded = steps_about(missed, left, share[left])
+        size = abs(way).max(axis=1, initial=0.0)
+        shrunk = size / last[left] if turn else 1.0
         share[left] += way
-        left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
+        last[left] = size
+        closed = (size < STILL) & (rounded | (shrunk * size < SETTLED))
+        left = left[~closed & np.isfinite(size)]
         if not left.size:
             return share
     share[left] = np.nan
     return share
 
 
-def steps_about(missed: Misses, row: Array, share: Array) -> Array:
-    """The steps of Newton's method, with slopes from both sides; from one side at an edge."""
+def steps_about(missed: Misses, row: Array, share: Array) -> tuple[Array, Array]:
+    """The steps of Newton's method, and where what is left is only rounding.
+
+    Slopes come from both sides; from one side at an edge.
+    """
     size = share.shape[1]
     away = NARROW * np.vstack([np.zeros(size), np.eye(size), -np.eye(size)])
     value = missed_beside(missed, row, share, away)
     slope = np.moveaxis(value[1 : size + 1] - value[size + 1 :], 0, -1) / (2 * NARROW)
     way = solutions(slope, -value[0])
+    grain = (abs(slope) * np.maximum(abs(share), 1.0)[:, None]).sum(axis=2)
+    rounded = (abs(value[0]) <= ROUNDING * grain).all(axis=1)
     edge = np.isnan(way).any(axis=1) & np.isfinite(value[0]).all(axis=1)
     if edge.any():
         way[edge] = steps_of(missed, row[edge], share[edge], value[0, edge])
-    return way
+    return way, rounded
 
 
 def missed_beside(missed: Misses, row: Array, share: Array, away: Array) -> Array:
