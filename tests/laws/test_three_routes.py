@@ -51,6 +51,7 @@ SEEN = {
     31836: "two closures that nearly merge between the places of a search",
     30334: "a bar kept at a wheel that a rack carries",
     30620: "a rack on which a bar hangs, on a block that turns far round",
+    8801666: "a wheel of a group whose closure has a number, and which is a block of a dyad",
     8800237: "a guide by its angle through a point 24 km from its link's origin",
     8801388: "the same beside a bar of 12 m",
     8800025: "a driver that rolls, beside which a trial must not be too small",
