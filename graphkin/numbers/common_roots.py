@@ -147,9 +147,10 @@ def may_vanish(
     """The cells in which all misfits may vanish.
 
     The test uses the least and largest values at the corners and how far a misfit bends between
-    them, or the dyads' reaches where no corner can be drawn. ``some`` and ``whole`` mark cells of
-    which some or all corners can be drawn.
-    ``ranges`` are the ranges of the misfits.
+    them, or the dyads' reaches where no corner can be drawn. A reach that is unknown (NaN) at a
+    corner excludes nothing: beside an earlier flat dyad it changes like a square root. ``some`` and
+    ``whole`` mark cells of which some or all corners can be drawn. ``ranges`` are the ranges of the
+    misfits.
     """
     bent = np.where(whole, BENT * side.max() ** 2, ROOT * np.sqrt(side.max()))
     slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
@@ -178,10 +179,8 @@ def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
         some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
-        ends, reaches = (
-            [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
-            for every in (value, reach)
-        )
+        ends = [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in value]
+        reaches = [(each[:, at].min(axis=1), each[:, at].max(axis=1)) for each in reach]
         misfits = [(*each, bend) for each, bend in zip(ends, bends, strict=True)]
         keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
