@@ -138,7 +138,7 @@ def corners_of(size: int) -> Array:
 
 def may_vanish(
     misfits: Sequence[tuple[Array, Array, Array]],
-    reaches: Sequence[tuple[Array, Array]],
+    reaches: Sequence[tuple[Array, Array, Array]],
     some: Array,
     whole: Array,
     ranges: Array,
@@ -147,8 +147,8 @@ def may_vanish(
     """The cells in which all misfits may vanish.
 
     The test uses the least and largest values at the corners and how far a misfit bends between
-    them, or the dyads' reaches where no corner can be drawn. A reach that is unknown (NaN) at a
-    corner excludes nothing: beside an earlier flat dyad it changes like a square root. ``some`` and
+    them, or the dyads' reaches where no corner can be drawn. Where a reach is unknown at a corner,
+    with its largest size as the third number, it may change like a square root. ``some`` and
     ``whole`` mark cells of which some or all corners can be drawn. ``ranges`` are the ranges of the
     misfits.
     """
@@ -159,8 +159,9 @@ def may_vanish(
             more = (high - low) * slack + bent * most + BENDING * bend
             crossed = crossed & (low - more <= 0) & (high + more >= 0)
             drawn = drawn & np.isfinite(most)
-        for low, high in reaches:
-            drawn = drawn & ~(high + (high - low) * SLACK < 0)
+        for low, high, edge in reaches:
+            more = (high - low) * SLACK + edge * ROOT * np.sqrt(side.max())
+            drawn = drawn & ~(high + more < 0)
     found: Array = crossed | drawn
     return found
 
@@ -176,11 +177,19 @@ def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
     value = np.where(finite, value, np.nan)
     strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
     bends = [bending(each, size) for each in value]
+    most = [np.fmax.reduce(abs(each), axis=None, initial=0.0) for each in reach]
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
         some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
         ends = [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in value]
-        reaches = [(each[:, at].min(axis=1), each[:, at].max(axis=1)) for each in reach]
+        reaches = [
+            (
+                np.fmin.reduce(each[:, at], 1),
+                np.fmax.reduce(each[:, at], 1),
+                edge * unknown[:, at].any(axis=1),
+            )
+            for each, unknown, edge in zip(reach, np.isnan(reach), most, strict=True)
+        ]
         misfits = [(*each, bend) for each, bend in zip(ends, bends, strict=True)]
         keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))

@@ -9,7 +9,7 @@ out.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
@@ -212,8 +212,12 @@ class SeveralTrials(Trying, frozen=True, dict=True):
     def looked_at(self) -> Ready:
         """The program for the misfits and for the values from which the dyads are drawn."""
         drawn = (arg for choice in self.choices if choice for arg in choice[2])
-        misfits = (n for k, _ in enumerate(self.unknowns) for n in self.keep(k))
-        return self.readied((*misfits, *drawn))
+        return self.readied((*self.smooth.keep, *drawn))
+
+    @cached_property
+    def smooth(self) -> Ready:
+        """The program for the misfits without their poles."""
+        return self.readied(tuple(n for k, _ in enumerate(self.unknowns) for n in self.keep(k)))
 
     def without_poles(self, k: int, found: Mapping[int, Any]) -> Any:
         """The misfit of an unknown, times the sines at which lines cross before it.
@@ -408,9 +412,7 @@ class Corners(NamedTuple):
             ends = [(*self.ends(each), self.bending(each)) for each in drawn]
             whole = self.over(np.logical_and, finite)
             some = self.over(np.logical_or, finite)
-            reaches = [
-                (self.over(np.minimum, each), self.over(np.maximum, each)) for each in self.reaches
-            ]
+            reaches = [(*self.ends(each), self.edges(each)) for each in self.reaches]
             keep = may_vanish(ends, reaches, some, whole, ranges, side)
         cell, code, step = np.nonzero(keep)
         codes = self.row[cell] + np.broadcast_to(self.codes, self.shape[1])[code]
@@ -419,6 +421,11 @@ class Corners(NamedTuple):
     def ends(self, value: Array) -> tuple[Array, Array]:
         """The least and the largest value at the corners of each cell."""
         return self.over(np.fmin, value), self.over(np.fmax, value)
+
+    def edges(self, reach: Array) -> Array:
+        """The largest size of a reach for cells at whose corners it is unknown, otherwise zero."""
+        known = self.over(np.logical_and, np.isfinite(reach))
+        return np.where(known, 0.0, np.fmax.reduce(abs(reach), axis=None, initial=0.0))
 
     def bending(self, value: Array) -> Array:
         """The largest sum of second differences at the corners of each cell; unknown ones are 0."""
@@ -459,7 +466,14 @@ class DrawnChain:
 
     def missed(self, row: Array, share: Array) -> Array:
         """The misfits without poles (K, n)."""
-        return np.stack(self.at(row, share)[0], axis=1)
+        found = self.trying.run(self.trying.smooth, *self.trials(row, share))
+        with np.errstate(all="ignore"):
+            return np.stack([*self.misfits(found, len(row))], axis=1)
+
+    def misfits(self, found: Mapping[int, Any], count: int) -> Iterator[Array]:
+        """Each misfit without poles (K,) among results."""
+        for k in range(len(self.trying.unknowns)):
+            yield np.broadcast_to(self.trying.without_poles(k, found), count)
 
     def reach(self, k: int, row: Array, share: Array) -> Array:
         """How far the dyad of a sign is drawable (K,): positive where it can be drawn."""
@@ -470,13 +484,8 @@ class DrawnChain:
         found = self.trying.run(self.trying.looked_at, *self.trials(row, share))
         choices = [choice for choice in self.trying.choices if choice is not None]
         with np.errstate(all="ignore"):
-            count = len(self.trying.unknowns)
-            misfits = [self.trying.without_poles(k, found) for k in range(count)]
+            misfits = [*self.misfits(found, len(row))]
             reaches = [
                 factor for _, far, args in choices for factor in far(*(found[arg] for arg in args))
             ]
-        count = len(row)
-        return (
-            [np.broadcast_to(each, count) for each in misfits],
-            [np.broadcast_to(each, count) for each in reaches],
-        )
+        return misfits, [np.broadcast_to(each, len(row)) for each in reaches]
