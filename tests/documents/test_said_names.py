@@ -39,7 +39,8 @@ def test_what_is_joined_says_what_its_parts_say():
     assert names_in(words("en").clauses((a, "and", b))) == {"v_A", "v_B"}
     assert names_in(a + " ⊥ ") == {"v_A"}
     assert names_in(str(a)) == names_in(f"{a}") == frozenset()
-    assert AND.join((a, b)) == f"{a}; {b}" and isinstance(AND.join(()), Markup)
+    said = words("en").clauses
+    assert said((a, b)) == f"{a}; {b}" and isinstance(said(()), Markup)
 
 
 def test_a_sentence_says_those_of_its_fields_that_it_has():
