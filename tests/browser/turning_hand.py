@@ -43,7 +43,8 @@ SPOT = """([side, own, rivals]) => {
   }
   const inside = ([u, v]) => u > x + 2 && u < x + width - 2 && v > y + 2 && v < y + height - 2;
   const free = place => Math.min(...others.map(other => off(place, other)), 1e6);
-  const best = found.filter(inside).sort((p, q) => free(q) - free(p))[0];
+  const places = found.filter(inside), room = places.map(free);
+  const best = places[room.indexOf(Math.max(...room))];
   const point = new DOMPoint(...best).matrixTransform(matrix);
   return [point.x, point.y];
 }"""
