@@ -140,7 +140,8 @@ def of_structure(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(f"*M* = {counted.words} ({pairs})")
     unseen = drawing.scene.unseen
     *groups, last = [group_words(words, group, unseen) for group in decompose(drawing.scene)]
-    first, *more = [*(f"{group};" for group in groups), last]
+    mark = words("clause_mark").rstrip()
+    first, *more = [*(f"{group}{mark}" for group in groups), last]
     yield Relation(first, more=tuple(more))
 
 
@@ -392,7 +393,8 @@ def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
 def data_line(drawing: Drawing, *, solved: bool) -> Relation:
     """The data, as one relation that may be broken after each piece."""
     *pieces, last = given(drawing, solved=solved)
-    first, *more = [f"{piece};" for piece in pieces] + [last]
+    mark = drawing.words("clause_mark").rstrip()
+    first, *more = [f"{piece}{mark}" for piece in pieces] + [last]
     return Relation(first, more=tuple(more))
 
 

@@ -31,7 +31,7 @@ from graphkin.construction.forces.loads import LinkForce, drawn_force, force_amo
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
-from graphkin.text import AND, COMMA
+from graphkin.text import COMMA
 
 PART = "reaction-part"
 """The style of the parts of reactions along and across bars."""
@@ -243,7 +243,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
         if self.cam:
             fields = {"r": symbol(self.first), "way": self.ways[0].words(drawing)}
             before.append(drawing.words("step.force-cam", **fields))
-        return AND.join([*before, said])
+        return drawing.words.clauses([*before, said])
 
     def two_force(self, drawing: Drawing) -> Iterator[str]:
         """The links without loads between their pins, whose reactions lie along them."""

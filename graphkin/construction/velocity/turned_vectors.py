@@ -86,7 +86,9 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         driver = driver_of_rate(drawing, rate)
         if driver is not None and self.link not in ("", driver.link, driver.against):
             own = drawing.symbol(f"{letter}_{self.link}")
-            remark = f"{remark}; {own} = {rate_symbol(drawing, rate, letter)}"
+            remark = drawing.words.clauses(
+                (remark, f"{own} = {rate_symbol(drawing, rate, letter)}")
+            )
         if square:
             remark = laid_off_words(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
         return Relation(
