@@ -245,7 +245,7 @@ def cycle(
     files |= table_files(stem, tables, kinds)
     with working() as step:
         if curves := [kind for kind in kinds if kind in ("svg", "png")]:
-            from graphkin.motion.curves.curve_files import picture_files
+            from graphkin.motion.curves.plane_paths import picture_files
 
             step("drawing the curves")
             files |= picture_files(found, stem, curves)

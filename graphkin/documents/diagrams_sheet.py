@@ -561,8 +561,12 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
     said = [
         words("diagrams.levels", v=v),
         words("diagrams.polygon", s=s),
-        f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}; "
-        f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
+        words.clauses(
+            (
+                f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}",
+                f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
+            )
+        ),
         words(
             "diagrams.summed",
             s=s,

@@ -473,13 +473,14 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
 def continued_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
     """The moved data, requests and links, in lines across a sheet from a place on."""
     words, width, lines = drawing.words, drawing.paper.left[2] - x - 3, list[str]()
+    mark = words("clause_mark")
     if Moved.DATA in moved:
         first, *others = (datum.said for datum in data_of(drawing, view))
-        lines += flowed([f"{words('page.data')}{words('colon')}{first}", *others], "; ", width, 2.5)
+        lines += flowed([f"{words('page.data')}{words('colon')}{first}", *others], mark, width, 2.5)
     if Moved.ASKED in moved:
         first, *others = asked_words(drawing)
         lines += flowed(
-            [f"{words('page.asked')}{words('colon')}{first}", *others], "; ", width, 2.5
+            [f"{words('page.asked')}{words('colon')}{first}", *others], mark, width, 2.5
         )
     if Moved.MEMBERS in moved:
         lines.append(members(drawing))

@@ -330,8 +330,8 @@ HOUSE_KEYS = (
         "results",
         results,
         f"the unit of lengths in results: {quoted(RESULTS)}; speeds are per s. By default inches"
-        " for a scene in inches, feet for one in feet, else metres. Forces are in newtons, so a"
-        " scene with masses or loads has metres",
+        " for a scene in inches, feet for one in feet, else metres. Forces are in lbf with inches"
+        " or feet, else in N",
         '"scene"',
         "results",
     ),

@@ -27,7 +27,7 @@ from graphkin.scene.phrases import (
     read_names,
 )
 from graphkin.scene.placing import read_shape
-from graphkin.scene.quantity import LENGTHS, TURNS, Quantity, exact
+from graphkin.scene.quantity import FORCES, LENGTHS, TURNS, Quantity, exact
 from graphkin.scene.read_joints import read_profiles, read_slides
 from graphkin.scene.requests import (
     read_ask,
@@ -125,12 +125,6 @@ def read_into(
 
         measures = Measures(findings, scene.units, scene.values)
         forces = read_forces(top, asked, scene, measures)
-        if forces is not None and states_other_results(top, scene):
-            findings.add(
-                "units.results",
-                message("{unit}: results with masses or loads are in metres", unit=scene.results),
-                message('results = "SI", or no results'),
-            )
         scene = replace(scene, forces=forces)
     top.finish()
     check_scene(scene, findings)
@@ -165,12 +159,6 @@ def has_forces(top: Table, asked: Table) -> bool:
     written = [top.raw.get(FRAME_WORD), *(links.values() if isinstance(links, dict) else ())]
     masses = (key in each for each in written if isinstance(each, dict) for key in MASS_KEYS)
     return any(key is not None for key in keys) or any(masses)
-
-
-def states_other_results(top: Table, scene: Scene) -> bool:
-    """Whether a file itself wants results in another unit of length than metres."""
-    units = top.raw.get("units")
-    return isinstance(units, dict) and "results" in units and scene.unit_of_results != "m"
 
 
 def check_version(top: Table, findings: Findings) -> None:
@@ -264,6 +252,10 @@ def read_units(table: Table, findings: Findings, house: House) -> tuple[dict[str
             meant = SPELLINGS.get(spelt, spelt)
             hint = Mend(str(raw), meant) if meant in choices else NO_WORDS
             table.wrong(key, shown(raw), listed(choices), hint)
+    if "force" in table:
+        units["force"] = table.choice("force", tuple(FORCES), "N")
+    else:
+        table.known.append("force")
     stated = "results" in table
     results = table.choice("results", RESULTS, RESULTS[0])
     table.finish()

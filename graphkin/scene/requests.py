@@ -16,7 +16,6 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
     HALVED,
-    IMPERIAL,
     POINTS_ASKED,
     Ask,
     Branch,
@@ -40,7 +39,7 @@ from graphkin.scene.phrases import (
     point_name,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text import LANGUAGES
+from graphkin.text import IMPERIAL, LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 from graphkin.text.school_signs import SCHOOLS
 

@@ -378,7 +378,7 @@ def read_tension(table: Table, measures: Measures) -> StrandTension | None:
     if len(given) > 1:
         found = message("both {keys}", keys=joined(", ", given))
         findings.add(table.place, found, message("one of {keys}", keys=joined(", ", TENSIONS)))
-    number = measures.number(place, given[key], TENSIONS[key])
+    number = measures.number(place, given[key], measures.mechanical(TENSIONS[key]))
     least = 1 if key == "ratio" else 0
     value = number.number(measures.values)
     if value < least or (key == "ratio" and value == least):

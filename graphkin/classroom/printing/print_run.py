@@ -209,7 +209,10 @@ class Sheets:
         """The form for answers."""
         first: Drawing = self.drawings[0]
         settings = parameters(first.scene, self.words)
-        title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
+        title, name = (
+            self.words.clauses([escape(title_of(first)), *settings]),
+            self.words("form.title"),
+        )
         fields, points = self.asked()
         whose, pivot = (self.whose.name, self.whose.code), next(iter(first.scene.frame.points), "")
         school = self.lab.house.header

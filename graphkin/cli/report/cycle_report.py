@@ -21,7 +21,7 @@ from graphkin.construction.core.quantities import (
 from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
-from graphkin.scene.quantity import LENGTHS, SI
+from graphkin.scene.quantity import SI
 from graphkin.text import words
 from graphkin.text.tables import Cell, csv_text, labelled, listed
 
@@ -479,9 +479,8 @@ def in_results(cycle: Cycle, value: float, unit: str) -> str:
     """A value in SI, in the unit of results, with that unit."""
     if unit == "°":
         return f"{value:.3f}°"
-    base = cycle.scene.unit_of_results
-    own = words("en", length=base).unit(unit)
-    size = value if own == unit else value / float(LENGTHS[base])
+    own = words("en", length=cycle.scene.unit_of_results).unit(unit)
+    size = value if own == unit else value / float(SI[own][0])
     return f"{short(size)} {own}".rstrip()
 
 
