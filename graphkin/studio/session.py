@@ -489,14 +489,9 @@ class Session:
         """A file, link or text of another program as the text of a scene."""
         from graphkin.studio.folder import Brought, asks_more, brought, tracing_of
 
-        words = {key: getattr(order, key) for key in ("fixed", "drive", "slides")}
         language = order.language
-        given = Brought(
-            order.file,
-            order.name,
-            order.pasted,
-            tracing_of(words),
-        )
+        tracing = tracing_of(order.fixed, order.drive, order.slides)
+        given = Brought(order.file, order.name, order.pasted, tracing)
         found = or_problems(
             lambda: brought(given, language), "", language, text="", name="", notes=[]
         )
