@@ -12,7 +12,7 @@ from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from threading import Condition, Lock
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from msgspec import Meta, MsgspecError, Struct, json, to_builtins
 
@@ -373,10 +373,13 @@ class PageRequest(Struct, frozen=True):
     slides: Name = ""
 
 
-def page_request(data: bytes) -> PageRequest:
-    """A request of the page. Raises PageRequestError for anything else."""
+Request = TypeVar("Request")
+
+
+def requested(data: bytes, kind: type[Request]) -> Request:
+    """A request of a page on this computer. Raises PageRequestError for anything else."""
     try:
-        return json.decode(data, type=PageRequest)
+        return json.decode(data, type=kind)
     except (MsgspecError, UnicodeDecodeError, RecursionError) as error:
         raise PageRequestError(str(error)) from None
 
