@@ -40,6 +40,7 @@ from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.requests import FEWEST_STEPS, MOST_STEPS
+from graphkin.structure.groups import ROMAN
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError, WitnessError, message
 
@@ -51,8 +52,6 @@ MOVED = ("position", "slide")
 """Targets of a batch of positions that move with the driver."""
 BELOW = 1e-3
 """Degrees below its low limit at which the angle of a link still counts from there."""
-ROMAN = ("I", "II", "III", "IV", "V", "VI")
-"""The names of dead points."""
 
 
 class Position(Struct, frozen=True):
@@ -244,7 +243,7 @@ def dead_places(moved: Cycle, travel: Follower | None) -> list[tuple[str, float]
     for u in sorted(ends):
         if not every or u - every[-1] > apart:
             every.append(u)
-    return list(zip(ROMAN, every, strict=False))
+    return list(zip(ROMAN[1:], every, strict=False))
 
 
 def also_at(
