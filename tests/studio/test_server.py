@@ -15,11 +15,11 @@ from urllib.parse import urlsplit
 import pytest
 
 from graphkin.classroom.sheet_files import hand_out_page
-from graphkin.construction.core.drawn_scene import METRES
 from graphkin.documents import MOTION_VIEWS
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
 from graphkin.scene import scene_files
+from graphkin.scene.quantity import METRES
 from graphkin.scene.read_scene import read_text
 from graphkin.studio.guard import HEADERS
 from graphkin.studio.server import HOME, WORK, Served, serve
