@@ -192,7 +192,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
     # --- misfits without poles -------------------------------------------------------------------
 
     @cached_property
-    def lines(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+    def lines(self) -> tuple[tuple[tuple[int, ...], ...], ...]:
         """For each unknown: the pairs of lines that cross before its misfit is known."""
         steps = self.program.steps
         return tuple(
