@@ -33,10 +33,9 @@ from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at, cycle_at
 from graphkin.motion.driving import TURN
 from graphkin.motion.equal_positions import Start, equal_places, sense_of
-from graphkin.motion.follower_limits import Follower, followers
+from graphkin.motion.follower_limits import Follower, followers, is_to_and_fro
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
-from graphkin.motion.travel import is_to_and_fro
 from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity, shortest

@@ -424,8 +424,8 @@ class Checking:
             return []
         from graphkin.cli.report.cycle_report import length_words
         from graphkin.construction.core.quantities import BY_TARGET
+        from graphkin.motion.follower_limits import travels
         from graphkin.motion.sweep import sweep_of
-        from graphkin.motion.travel import travels
 
         sweep, lines = sweep_of(self.mechanism.scene), list[str]()
         for (quantity, name), found in travels(self.mechanism).items():
