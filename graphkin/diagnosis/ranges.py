@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 WORK = 60_000_000
 """Steps of closing groups that a search may take: about a second."""
-FEWEST = 180
-"""Positions that are always searched, at any cost."""
+FEWEST, DEAREST = 180, 10 * WORK
+"""Positions that are searched at up to DEAREST steps, and none beyond."""
 NARROWINGS = 5
 """How many times the last step at the end of a range is cut into parts."""
 PARTS = 16
@@ -45,15 +45,22 @@ class ClosingRanges(Struct, frozen=True):
     """The ranges of one driver's position (degrees or m) in which a mechanism closes.
 
     ``searched`` counts the positions searched where a bound on the work left some out, else it is
-    0. ``tried`` counts the links tried at once where these are too many for a search; there are no
-    ranges then. ``followed`` means that the only range is the one through which the motion goes
-    from the scene's position, where a search at every position would cost too much.
+    0. There are no ranges where ``tried`` counts the links tried at once that are too many for a
+    search, or ``dear`` says that it takes too many trials. ``followed`` means that the only range
+    is the one through which the motion goes from the scene's position, where a search at every
+    position would cost too much.
     """
 
     ranges: list[Range]
     searched: int = 0
     tried: int = 0
+    dear: bool = False
     followed: bool = False
+
+    @property
+    def left_out(self) -> bool:
+        """Whether nothing was searched."""
+        return bool(self.tried) or self.dear
 
     @property
     def bound(self) -> Message:
@@ -64,6 +71,8 @@ class ClosingRanges(Struct, frozen=True):
                 "position of the driver",
                 count=self.tried,
             )
+        if self.dear:
+            return message("not searched, as it takes too many trials: check the lengths")
         if not self.searched:
             return NO_WORDS
         return message(
@@ -85,7 +94,7 @@ def closings(scene: Scene) -> list[ClosingRanges]:
 
 def closes_where(scene: Scene, known: Sequence[ClosingRanges]) -> Message:
     """Words for the ranges of each driver."""
-    if left_out := next((found.bound for found in known if found.tried), None):
+    if left_out := next((found.bound for found in known if found.left_out), None):
         return message("where it closes is {left_out}", left_out=left_out)
     words = closes_for(scene, known)
     bound = next((found.bound for found in known if found.bound), None)
@@ -180,7 +189,7 @@ def sought(scene: Scene, number: int) -> ClosingRanges:
     """The positions of one driver at which the whole mechanism can be drawn."""
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
-    from graphkin.motion.turns_followed import wheels
+    from graphkin.motion.turns_followed import TooManyPositionsError, wheels
     from graphkin.text.errors import GraphkinError
 
     course = Course(swept(scene, number), scene.branches)
@@ -193,8 +202,12 @@ def sought(scene: Scene, number: int) -> ClosingRanges:
             return ClosingRanges([], tried=course.tried_at_once)
         if course.tries_several:
             return range_sought(course)
+        if FEWEST * course.closing_work > DEAREST:
+            return ClosingRanges([], dear=True)
         count = min(GRID, max(FEWEST, WORK // max(course.closing_work, 1)))
         found = ranges_of(course, count)
+    except TooManyPositionsError:
+        return ClosingRanges([], dear=True)
     except GraphkinError:
         return ClosingRanges([])
     return ClosingRanges(found, count if count < GRID else 0)

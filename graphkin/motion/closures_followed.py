@@ -22,9 +22,8 @@ from graphkin.construction.higher_class.following import (
 from graphkin.motion.course import Course
 from graphkin.motion.driving import TURN
 from graphkin.motion.sweep import name_of
-from graphkin.motion.turns_followed import Followed, following, led
+from graphkin.motion.turns_followed import Followed, following, led, too_many
 from graphkin.scene.model import Closure
-from graphkin.text.errors import ClosureError, message
 
 Reals = np.ndarray[Any, np.dtype[Any]]
 
@@ -215,7 +214,7 @@ def changes(course: Course, k: int, low: float, high: float) -> list[tuple[float
     places, least = (FEWER, STRIDE) if group.trying.several else (PLACES, 2 * STRIDE)
     count = max(int(np.ceil((high - low) / usual * places)), least)
     if count > MOST:
-        raise too_many(course)
+        raise too_many(course, MOST)
     grid = np.linspace(low, high, count + 1)
     numbers = known_numbers(numbers_at(group, way, grid), course.branches[course.numbered[k]])
     done = list[Bracket]()
@@ -352,18 +351,3 @@ def within(group: GroupOnWay, each: Bracket, at: Reals, numbers: Reals) -> list[
     if len(found) > PASSES and each.high - each.low <= CROWDED * group.usual:
         return [each._replace(crowded=True)] if each.first != each.last else []
     return found
-
-
-def too_many(course: Course) -> ClosureError:
-    """The error for a motion that would be followed through more positions than allowed."""
-    sweep = course.sweep
-    found = message(
-        "from {low:.10g} to {high:.10g} {unit} it has to be tried at more",
-        low=sweep.low,
-        high=sweep.high,
-        unit=sweep.unit,
-    )
-    most = message("at most {most} positions of the driver", most=MOST)
-    return ClosureError.at(
-        message("the cycle"), found, most, message("show less with --from and --to")
-    )

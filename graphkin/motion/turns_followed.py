@@ -15,6 +15,7 @@ from graphkin.construction.core.program import Target
 from graphkin.motion.course import Course, Reals
 from graphkin.motion.driving import TURN
 from graphkin.motion.sweep import Turned, name_of
+from graphkin.text.errors import ClosureError, message
 
 QUARTER = 90.0
 """Angles near which links count are whole quarter turns from the stated ones, in degrees."""
@@ -27,6 +28,11 @@ FIRST, MOST = 64, 8192
 """Positions run at once, at first and at most, until a link counts near another angle."""
 PARTS = 16
 """Parts into which an interval is cut where a link turns by a larger step."""
+WITHIN, BESIDE = 16, 20_000
+"""The most positions: so many times those of the grid, and so many more.
+
+Where groups are closed at each of them, a tenth of the latter and a quarter of the former.
+"""
 ENOUGH = 1e-9
 """Share of the interval below which it is not cut further: there a link jumps."""
 
@@ -60,6 +66,10 @@ class Followed:
         return Turned(np.array(places), {m: np.array([row[m] for row in near]) for m in near[0]})
 
 
+class TooManyPositionsError(ClosureError):
+    """A motion that would be followed through more positions of the driver than allowed."""
+
+
 def following(course: Course, start: float, links: Iterable[str] | None = None) -> Followed:
     """The start of following some links, by default all counted ones, with the course's angles."""
     known = course.values(np.array([start]))
@@ -75,7 +85,7 @@ def led(
 
     At the start they count as the course states. Where nothing closes, they keep their angles. The
     grid is coarser with ``step``. Between two of its positions, a link must turn by less than a
-    turn minus the largest step.
+    turn minus the largest step. Raises TooManyPositionsError.
     """
     if not (course.counting if links is None else links) or start == stop:
         return course
@@ -85,10 +95,16 @@ def led(
     followed, passed = following(course, start, links), start
     last: dict[str, float] = {}
     size = FIRST
+    is_dear = course.closing_work > 0
+    most = WITHIN // 4 * count + BESIDE // 10 if is_dear else WITHIN * count + BESIDE
+    left = most
     while ahead:
+        if left < 0:
+            raise too_many(course, most)
         places = np.array(ahead[: -size - 1 : -1])
         angles = angles_near(course, places, followed.now)
         done = as_far(angles, followed.now, last)
+        left -= len(places) if is_dear else done + 1
         if done:
             passed, last = float(places[done - 1]), last_of(angles, done) or last
             del ahead[-done:]
@@ -142,6 +158,21 @@ def last_of(angles: Mapping[str, Reals], done: int) -> dict[str, float]:
     rows = np.array([row[:done] for row in angles.values()])
     good = np.flatnonzero(np.isfinite(rows).all(axis=0))
     return {} if not good.size else {link: float(row[good[-1]]) for link, row in angles.items()}
+
+
+def too_many(course: Course, positions: int) -> TooManyPositionsError:
+    """The error for a motion that would be followed through more positions than allowed."""
+    sweep = course.sweep
+    found = message(
+        "from {low:.10g} to {high:.10g} {unit} it has to be tried at more",
+        low=sweep.low,
+        high=sweep.high,
+        unit=sweep.unit,
+    )
+    most = message("at most {most} positions of the driver", most=positions)
+    return TooManyPositionsError.at(
+        message("the cycle"), found, most, message("show less with --from and --to")
+    )
 
 
 BACK = 1e-6

@@ -26,6 +26,7 @@ from graphkin.motion.course import Course
 from graphkin.motion.driving import GRID
 from graphkin.numbers.roots import roots
 from graphkin.scene.read_scene import read_text
+from tests.chosen import EVERY
 
 HERE = Path(__file__).resolve().parent / "scenes"
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "scenes"
@@ -95,6 +96,20 @@ def test_a_length_beyond_all_others_is_searched_within_the_bound(tried):
     words = where_it_closes(scene)
     assert words.startswith("it closes for no angle of the driver: check the lengths (searched at ")
     assert sum(tried) < 3 * WORK
+
+
+@pytest.mark.parametrize(
+    ("name", "length"),
+    [("rod-and-wheel", "C-B = 40"), *([("plank-axle", "radius = 45")] if EVERY else [])],
+)
+def test_a_wheel_that_turns_without_end_is_not_searched(name, length):
+    """A bar of 9e15 mm on a wheel of 60 mm may roll it 5e13 times round; no search sees that."""
+    text = (EXAMPLES / f"{name}.toml").read_text(encoding="utf-8")
+    key = length.split(" = ")[0]
+    scene = read_text(text.replace(length, f"{key} = 9e15"), "far", None, {})
+    assert closing(scene).dear
+    words = "where it closes is not searched, as it takes too many trials: check the lengths"
+    assert where_it_closes(scene) == words
 
 
 def test_a_ring_that_does_not_close_is_followed_from_one_of_a_few_positions():

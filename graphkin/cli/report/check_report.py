@@ -527,7 +527,7 @@ def range_lines(mechanism: Mechanism) -> list[str]:
     if len(mechanism.scene.drivers) != 1:
         return ["not swept: it is for mechanisms with one driver"]
     found = closing(mechanism.scene)
-    if found.tried:
+    if found.left_out:
         return [found.bound]
     return [range_words(mechanism, found), *([found.bound] if found.bound else [])]
 
