@@ -28,11 +28,12 @@ from graphkin.classroom.grading.copied_answers import (
     with_causes,
 )
 from graphkin.classroom.grading.graded import Answer, Graded
-from graphkin.classroom.grading.keys import Keys, distinct
-from graphkin.classroom.grading.likelihood import (
+from graphkin.classroom.grading.keys import (
     MISTAKES,
     PENCILS,
     Key,
+    Keys,
+    distinct,
     judged,
     likelihood_if_drawn,
     scattered,
