@@ -52,3 +52,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     waiting.sort(key=len, reverse=True)
     by_turns = chain.from_iterable(zip_longest(waiting, computing, fillvalue=[]))
     items[:] = chain.from_iterable(by_turns)
+
+
+def pytest_collection_finish() -> None:
+    """Modules and tests stay to the end: no collection of garbage looks through them again."""
+    gc.freeze()

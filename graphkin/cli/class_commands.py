@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING
 
 import click
 
+from graphkin.cli.folder_options import FolderType, class_argument, folder_option, output_option
 from graphkin.cli.options import (
     FAILED,
     READING,
-    FolderType,
-    class_argument,
     complain,
     current,
-    folder_option,
     force_option,
     formats_option,
     house_option,
@@ -26,7 +24,6 @@ from graphkin.cli.options import (
     language_option,
     leave,
     option_words,
-    output_option,
     say,
     tell,
     working,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
     FAILED,
     complain,
@@ -18,7 +19,6 @@ from graphkin.cli.options import (
     leave,
     mechanism_of,
     option_words,
-    output_option,
     pairs_of,
     scales_of,
     scene_argument,

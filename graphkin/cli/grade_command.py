@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from graphkin.cli.folder_options import class_argument
 from graphkin.cli.options import (
     FAILED,
-    class_argument,
     complain,
     formats_option,
     jobs_option,

@@ -71,6 +71,18 @@ def barred(page: Any) -> list[tuple[str, list[str]]]:
     return [(rule["id"], [node["html"][:120] for node in rule["nodes"]]) for rule in found]
 
 
+PUT = """(field, text) => {
+  field.focus();
+  field.value = text;
+  field.dispatchEvent(new InputEvent("input", { bubbles: true, inputType: "insertText" }));
+}"""
+
+
+def put(page: Any, field: str, text: str) -> None:
+    """Write a text of many lines at once: where it is typed, the page hears of each of them."""
+    page.locator(field).evaluate(PUT, text)
+
+
 LOOK = {
     "viewport": {"width": 1280, "height": 720},
     "color_scheme": "light",

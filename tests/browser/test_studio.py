@@ -14,7 +14,7 @@ import pytest
 from graphkin.mechanism import load
 from graphkin.scene import scene_files
 from graphkin.studio.server import Served
-from tests.browser.opening import LONG, barred, heard, watched
+from tests.browser.opening import LONG, barred, heard, put, watched
 from tests.studio.pump import BAR, PUMP
 
 DESKTOP = {"viewport": {"width": 1440, "height": 900}}
@@ -74,7 +74,7 @@ def write(page: Any, old: str, new: str) -> None:
     """Change the text of the scene."""
     text = page.input_value("#text")
     assert old in text
-    answered(page, lambda: page.fill("#text", text.replace(old, new, 1)))
+    answered(page, lambda: put(page, "#text", text.replace(old, new, 1)))
 
 
 def selection(page: Any) -> str:
@@ -236,7 +236,7 @@ def test_a_scene_is_saved_where_it_was_opened_and_no_other_is_replaced_unasked(s
     assert page.input_value("#file") == "other.toml"
     assert "C-D = 22" in (place / "other.toml").read_text(encoding="utf-8")
     (place / "other.toml").unlink()
-    page.fill("#text", page.input_value("#text") + "# more\n")
+    put(page, "#text", page.input_value("#text") + "# more\n")
     page.locator("#status.poor", has_text="is not on the disk any more").wait_for()
     page.click("#save")
     said(page, "Saved: other.toml")
@@ -454,7 +454,7 @@ def test_the_mechanism_is_moved_within_the_page(studio):
     moving.locator("#play").click()
     assert not page.is_visible("#motion-driver")
     five_bar = scene_files.examples()["five-bar"].read_text("utf-8")
-    page.fill("#text", five_bar)
+    put(page, "#text", five_bar)
     page.select_option("#motion-driver", label="turn = 4")
     moving.locator("#at[max='360']").wait_for()
     page.check("#motion-kind [value=steps]")
@@ -520,7 +520,7 @@ def test_what_is_written_is_completed_and_mended(studio):
     page.keyboard.press("ArrowDown")
     page.keyboard.press("Enter")
     assert page.input_value("#text").endswith('slides = { on = 0, through = "O2')
-    page.fill("#text", before.replace("omega =", "omga =").replace("O1-A = 30", "O1-A = 30 cm"))
+    put(page, "#text", before.replace("omega =", "omga =").replace("O1-A = 30", "O1-A = 30 cm"))
     for _ in range(2):
         page.locator(".mend").first.click()
         page.wait_for_selector("body[data-settled=true]")

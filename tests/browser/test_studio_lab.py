@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.studio.server import Served
-from tests.browser.opening import barred, watched
+from tests.browser.opening import barred, put, watched
 
 
 @pytest.fixture
@@ -45,7 +45,7 @@ def test_students_are_looked_at_a_formula_is_mended_and_the_lab_saved(page, serv
     assert pages.first.evaluate(wide) == pytest.approx(420 / 297, abs=0.01)
     assert not barred(page)
     rules, scene = page.input_value("#rules"), page.input_value("#text")
-    page.fill("#rules", rules.replace("0.05, 4", "0.04, 4"))
+    put(page, "#rules", rules.replace("0.05, 4", "0.04, 4"))
     fairness(page, 30)
     page.click("#rules")
     page.keyboard.press("Control+z")
@@ -75,7 +75,7 @@ def test_a_lab_is_begun_beside_any_scene(page, served):
     assert "[variants.draw]" in page.input_value("#rules")
     assert page.input_value("#file") == "new/scene.toml"
     assert page.inner_text("#rules-count") == "No mistakes."
-    page.fill("#rules", page.input_value("#rules").replace("segment = 5", "segment = -5"))
+    put(page, "#rules", page.input_value("#rules").replace("segment = 5", "segment = -5"))
     page.locator("#rules-part .gutter .wrong").wait_for()
     assert page.inner_text("#rules-part .under mark") == "segment = -5"
 
@@ -88,10 +88,10 @@ def test_ranges_are_sought_of_a_whole_lab_alone(page, served):
     for part, first in (("#text", "The scene"), ("#rules", "The rules")):
         text = page.input_value(part)
         assert page.is_enabled("#find-ranges")
-        page.fill(part, f"{text}\nbroken = ")
+        put(page, part, f"{text}\nbroken = ")
         page.locator("#why-no-ranges", has_text=f"{first} ha").wait_for()
         assert page.is_disabled("#find-ranges")
-        page.fill(part, text)
+        put(page, part, text)
         page.locator("#find-ranges:enabled").wait_for()
         fairness(page, 29)
         assert page.inner_text("#why-no-ranges") == ""

@@ -242,8 +242,9 @@ def test_the_scheme_of_a_task_is_beside_its_table(name, frame):
     assert left < right and (right <= table[0] or low <= table[1] or paper.is_leaf)
 
 
-@pytest.mark.parametrize("name", ["pump-forces", "shaper-forces", "engine-forces"])
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize(
+    ("language", "name"), by_turns(LANGUAGES, ["pump-forces", "shaper-forces", "engine-forces"])
+)
 def test_requests_on_a_leaf_keep_off_the_scheme(language: str, name: str) -> None:
     """A heading or a request wider than the room beside the scheme is divided."""
     for part in hand_out(on("A4", name), "task", language)[:-1]:

@@ -19,7 +19,7 @@ from graphkin.mechanism import Mechanism, load
 from graphkin.scene.model import StatedPositions
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import WitnessError
-from tests.chosen import FOLDER
+from tests.chosen import FOLDER, by_turns
 from tests.laws.force_routes import of_equations, on_links
 
 SHOWN = ("engine-forces", "pump-forces", "shaper-forces", "gears-forces", "belts-forces")
@@ -88,18 +88,12 @@ def test_the_sides_of_the_polygons_have_the_lengths_of_the_forces():
             assert drawn == ([pytest.approx(force, abs=0.01 * k)] if abs(force) > 0.1 * k else [])
 
 
-@pytest.mark.parametrize("name", SHOWN)
-def test_every_sheet_fits_and_has_the_letters_of_its_forces(name: str):
-    for page in sheets(name):
+@pytest.mark.parametrize(("name", "language"), by_turns(SHOWN, LANGUAGES))
+def test_every_sheet_fits_and_no_gap_is_open_in_any_language(name: str, language: str):
+    for page in sheets(name, language):
         page.check()
-
-
-@pytest.mark.parametrize("language", LANGUAGES)
-def test_no_gap_is_open_in_any_language(language: str):
-    shown = [
-        m.markup for p in sheets("engine-forces", language) for m in p.marks if isinstance(m, Text)
-    ]
-    assert not [text for text in shown if re.search(r"None|nan\b|[{}]", plain(text))]
+        shown = [plain(m.markup) for m in page.marks if isinstance(m, Text)]
+        assert not [text for text in shown if re.search(r"None|nan\b|[{}]", text)]
 
 
 def test_many_positions_stand_in_blocks_beside_one_another():

@@ -18,6 +18,7 @@ from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
 from graphkin.text.school_signs import MEANINGS, NAMES, SCHOOLS, USUAL, SchoolSigns
 from graphkin.web.step_page import step_page
+from tests.chosen import by_turns
 
 MADE_UP = SchoolSigns(
     normal="N",
@@ -72,8 +73,7 @@ def texts(mechanism: Mechanism, view: str, language: str) -> list[str]:
     return [mark.markup for page in pages for mark in page.marks if isinstance(mark, Text)]
 
 
-@pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("view", ["key", "task", "steps"])
+@pytest.mark.parametrize(("name", "view"), by_turns(SCENES, ["key", "task", "steps"]))
 def test_no_usual_sign_is_left_on_paper(name: str, view: str) -> None:
     left = [each for each in texts(of_school(name, MADE_UP), view, "en") if WRITTEN.search(each)]
     assert not left

@@ -13,12 +13,17 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import GraphkinError
 
-pylinkage = pytest.importorskip("pylinkage.mechanism")
 STEP = 1e-5
 MM = 0.001
 
 
-def saved(mechanism) -> str:
+@pytest.fixture(scope="module")
+def pylinkage():
+    """Loaded by the worker that runs these tests alone: it takes as long as all of graphkin."""
+    return pytest.importorskip("pylinkage.mechanism")
+
+
+def saved(pylinkage, mechanism) -> str:
     return json.dumps(pylinkage.mechanism_to_dict(mechanism))
 
 
@@ -27,13 +32,13 @@ def opened(text: str):
 
 
 MADE = {
-    "four-bar": lambda: pylinkage.fourbar(
+    "four-bar": lambda pylinkage: pylinkage.fourbar(
         crank=20, coupler=60, rocker=50, ground=70, omega=STEP, initial_angle=0.7
     ),
-    "other-branch": lambda: pylinkage.fourbar(
+    "other-branch": lambda pylinkage: pylinkage.fourbar(
         crank=20, coupler=60, rocker=50, ground=70, omega=STEP, initial_angle=0.7, branch=0
     ),
-    "slider-crank": lambda: pylinkage.slider_crank(
+    "slider-crank": lambda pylinkage: pylinkage.slider_crank(
         crank=20,
         rod=60,
         omega=STEP,
@@ -45,9 +50,9 @@ MADE = {
 
 
 @pytest.mark.parametrize("name", MADE)
-def test_every_joint_moves_as_pylinkage_steps_it(name):
-    mechanism = MADE[name]()
-    found = opened(saved(mechanism))
+def test_every_joint_moves_as_pylinkage_steps_it(pylinkage, name):
+    mechanism = MADE[name](pylinkage)
+    found = opened(saved(pylinkage, mechanism))
     start = {joint.id: complex(*joint.position) for joint in mechanism.joints}
     names = [joint.id for joint in mechanism.joints]
     steps = [dict(zip(names, places, strict=True)) for places in mechanism.step(iterations=2)]
@@ -69,9 +74,9 @@ def changed(text: str, part: str, number: int, **changes: object) -> str:
     return json.dumps(data)
 
 
-def test_a_tracker_is_a_point_of_its_link():
+def test_a_tracker_is_a_point_of_its_link(pylinkage):
     """A point over the middle of the coupler, at half its length, is at 45° from its first end."""
-    data = json.loads(saved(MADE["four-bar"]()))
+    data = json.loads(saved(pylinkage, MADE["four-bar"](pylinkage)))
     coupler = next(link for link in data["links"] if link["id"] == "coupler")
     one, other = coupler["joints"]
     tracker = {"id": "T", "type": "tracker", "position": [0, 0], "ref_joint1_id": one}
@@ -83,8 +88,8 @@ def test_a_tracker_is_a_point_of_its_link():
     assert complex(points["T"].position) / MM == pytest.approx(at[one] + way * (30 + 30j))
 
 
-def test_what_cannot_be_imported_is_refused_by_its_name():
-    text = saved(MADE["four-bar"]())
+def test_what_cannot_be_imported_is_refused_by_its_name(pylinkage):
+    text = saved(pylinkage, MADE["four-bar"](pylinkage))
     for number, changes, words in (
         (0, {"type": "Crank"}, "kind Crank"),
         (1, {"position": [None, None]}, "no position"),

@@ -186,3 +186,11 @@ def test_importing_graphkin_loads_none_of_the_heavy_libraries():
 def test_solving_a_shipped_mechanism_loads_none_of_them_either():
     code = "import graphkin\nassert graphkin.load('pump', n=7).solve().margin > 0.8"
     assert not HEAVY & loaded_by(code)
+
+
+def test_the_command_solve_loads_nothing_that_delays_its_start():
+    """Beside numpy and click, which it needs, each of these takes a twentieth of its time."""
+    run = "with suppress(SystemExit):\n    app(['solve', 'pump'])"
+    found = loaded_by(f"from contextlib import suppress\nfrom graphkin.cli.main import app\n{run}")
+    assert "graphkin.loops.witness" in found
+    assert not (HEAVY - {"numpy"} | {"pathlib", "dataclasses", "json"}) & found
