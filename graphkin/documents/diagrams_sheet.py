@@ -558,7 +558,7 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
     hand = mark() * sqrt(count) * interval / found.distance / found.axes.high
     per_mm = words.unit(f"{rates_units(motion)[0]}/mm")
     rule = f"*k*_{{*{s}*}} = *k*_{{*{v}*}}·*k*_{{*{u_symbol(motion)}*}}·*H*{pace}"
-    said = [
+    said: list[str] = [
         words("diagrams.levels", v=v),
         words("diagrams.polygon", s=s),
         words.clauses(
