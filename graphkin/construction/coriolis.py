@@ -64,7 +64,7 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import turns
+from graphkin.structure.turning import turns
 from graphkin.text import COMMA, NOTHING, saying
 
 CORNERS = ("ef", "gh", "rs", "xy")

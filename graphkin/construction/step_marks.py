@@ -7,9 +7,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import SaidInParts, construction, constructions
+from graphkin.construction.core.kind import SaidInParts, auxiliary_plan, construction, constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import is_foot_drawn
 from graphkin.construction.core.paper_canvas import (

@@ -32,7 +32,7 @@ from graphkin.drawing.richtext import (
 )
 from graphkin.drawing.symbol_markup import escape
 from graphkin.text import Words
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 from graphkin.writers.latex import formula_of, head, latex, maths
 from graphkin.writers.latex import words as text_of
 
@@ -270,13 +270,11 @@ def broken(
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
         if extent(line, LETTER)[0] > room:
-            raise PageError(
-                Problem(
-                    "calculation",
-                    message("does not fit: {line}", line=plain(line)),
-                    message("a shorter relation"),
-                    message("shorten the names of the points"),
-                )
+            raise PageError.at(
+                "calculation",
+                message("does not fit: {line}", line=plain(line)),
+                message("a shorter relation"),
+                message("shorten the names of the points"),
             )
         written = line if solved else dotted(line, room)
         yield CalculationRow(written, tag if i == len(lines) - 1 else "")

@@ -145,15 +145,11 @@ def found(cells: Sequence[FieldNeed], rect: Rect) -> tuple[float, Sequence[Field
         if isfinite(kF):
             every = arrangements(len(some))
             return kF, some, max(every, key=lambda rows: slack(some, rows, wide, high, 1 / kF))
-    raise PageError(
-        Problem(
-            "sheet",
-            message(
-                "does not fit: {count} polygons of forces beside the mechanism", count=len(cells)
-            ),
-            message("a smaller mechanism"),
-            message("write a larger scale under [sheet]"),
-        )
+    raise PageError.at(
+        "sheet",
+        message("does not fit: {count} polygons of forces beside the mechanism", count=len(cells)),
+        message("a smaller mechanism"),
+        message("write a larger scale under [sheet]"),
     )
 
 
@@ -308,16 +304,14 @@ def proved_forces(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
     drawing = unplaced(mechanism, first)
     worst = max(verdict.largest_difference, abs(verdict.power), *differences(drawing, found))
     if worst > HELD:
-        raise WitnessError(
-            Problem(
-                "loads",
-                message(
-                    "polygons and equations of equilibrium differ by {difference}",
-                    difference=f"{worst:.1e}",
-                ),
-                message("at most {limit:.1e}", limit=HELD),
-                message("no sheet is handed out"),
-            )
+        raise WitnessError.at(
+            "loads",
+            message(
+                "polygons and equations of equilibrium differ by {difference}",
+                difference=f"{worst:.1e}",
+            ),
+            message("at most {limit:.1e}", limit=HELD),
+            message("no sheet is handed out"),
         )
     return replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
 

@@ -670,16 +670,11 @@ def fitting(
                 break
 
 
-def mark_on_cam(found: PositionSet) -> Iterator[bool]:
-    """For each cam, whether its follower is drawn turned back on it."""
-    return (not cam.slides and cam.carrier == FRAME for cam in found.cycle.scene.cams.values())
-
-
 def legend(found: PositionSet, *, whole: bool) -> list[str]:
     """What the kinds of lines and the letters of the sheet mean; not ``whole`` lacks numbers."""
     words, travel = found.shown.alone.words, found.follower
     said: list[str] = [words("positions.paths")]
-    if any(mark_on_cam(found)):
+    if any(not cam.slides and cam.carrier == FRAME for cam in found.cycle.scene.cams.values()):
         said.append(words("positions.reversed"))
     dead = [*(each.name for each in found.dead), *(e.also for e in found.numbered if e.also)]
     if dead:

@@ -16,11 +16,10 @@ from operator import truediv
 from msgspec.structs import replace
 
 from graphkin.construction.cams.cam_centre import of_cams
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.kind import GivenVector, construction
+from graphkin.construction.core.kind import GivenVector, auxiliary_plan, construction
 from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of, segment_of, sense
 from graphkin.construction.core.program import Part, Step, plan_vector, sign_of

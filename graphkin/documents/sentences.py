@@ -11,7 +11,6 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import set_before
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan, falls_on_sources
 from graphkin.construction.core.component import (
     Component,
     TriangleComponent,
@@ -22,7 +21,13 @@ from graphkin.construction.core.component import (
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, of_driver, other_parameters
-from graphkin.construction.core.kind import PlanPole, Sentence, construction
+from graphkin.construction.core.kind import (
+    PlanPole,
+    Sentence,
+    auxiliary_plan,
+    construction,
+    falls_on_sources,
+)
 from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.program import Part, Plane, Step, is_set_on, plan_vector

@@ -78,7 +78,7 @@ from graphkin.scene.house import THICK
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
 from graphkin.text import Words, names_in
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 
 BLANK = ". . . . . . . . ."
 """Room to write in for values that a task does not reveal."""
@@ -369,13 +369,11 @@ def in_lines(
                     Text(x, y + row * leading, line, "caption", LETTERS, name=NAME)
                     for row, line in enumerate(lines)
                 ]
-    raise PageError(
-        Problem(
-            "data",
-            message("does not fit: {count} lines", count=len(lines)),
-            message("fewer lines above the drawings"),
-            message("shorten names and notes, or split the scene"),
-        )
+    raise PageError.at(
+        "data",
+        message("does not fit: {count} lines", count=len(lines)),
+        message("fewer lines above the drawings"),
+        message("shorten names and notes, or split the scene"),
     )
 
 

@@ -106,12 +106,10 @@ def hand_out(
     mechanism = mechanism.spoken(language).measured
     spoken = language_of(mechanism, language)
     if mechanism.scene.sheet.sheets != len(SHEETS):
-        raise SceneError(
-            Problem(
-                "sheet.sheets",
-                message("one sheet for both plans is not drawn yet"),
-                message("2, or left out"),
-            )
+        raise SceneError.at(
+            "sheet.sheets",
+            message("one sheet for both plans is not drawn yet"),
+            message("2, or left out"),
         )
     drawings = drawn_of(mechanism, spoken)
     sheets = [
@@ -192,12 +190,8 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
     """The words of a language with the scene's signs. Raises SceneError if it is unknown."""
     code = language or mechanism.scene.sheet.language
     if code not in LANGUAGES:
-        raise SceneError(
-            Problem(
-                "sheet.language",
-                message('"{code}" is not a language', code=code),
-                either(LANGUAGES),
-            )
+        raise SceneError.at(
+            "sheet.language", message('"{code}" is not a language', code=code), either(LANGUAGES)
         )
     return words(code, mechanism.scene.sheet.signs, mechanism.scene.base)
 
@@ -280,12 +274,10 @@ def drawings_of(
         if (found := targets_of(mechanism, kind))
     ]
     if not drawings:
-        raise SceneError(
-            Problem(
-                "ask",
-                message("asks for nothing that is drawn"),
-                message("velocities, accelerations, centres …"),
-            )
+        raise SceneError.at(
+            "ask",
+            message("asks for nothing that is drawn"),
+            message("velocities, accelerations, centres …"),
         )
     stand = None if held else mechanism_field(drawings)
     return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]
@@ -514,7 +506,7 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
             y += LEADING
         if y > low + LEADING:
             found = message("does not fit: {count} lines of data", count=len(lines))
-            raise PageError(Problem("data", found, message("data for one sheet")))
+            raise PageError.at("data", found, message("data for one sheet"))
     top = y + BELOW
     right: Rect = (paper.second, top, paper.fields[2], low)
     if Moved.CONSTRUCTION in moved:

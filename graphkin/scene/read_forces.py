@@ -164,7 +164,7 @@ def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
         known = [point for link in scene.every_link for point in link.points]
         if len(ends) != 2 or ends[0] == ends[1]:
             expected = message('two points, such as "A-B"')
-            findings.add(table.at("between"), shown(between), expected)
+            table.wrong("between", shown(between), expected)
             continue
         for end in ends:
             known_point(end, known, THE_MECHANISM, table.at("between"), findings)
@@ -176,7 +176,7 @@ def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
             owners = [link_name(table.at("links"), e, findings) or "" for e in given]
             if len(owners) != 2 or any(known_link_or_frame(scene, e) is None for e in owners):
                 expected = message("the links that hold the two ends, such as [2, 0]")
-                findings.add(table.at("links"), shown(on), expected)
+                table.wrong("links", shown(on), expected)
                 continue
         for end, owner in zip(ends, owners, strict=True):
             link = scene.frame if owner == FRAME else scene.link(owner)
@@ -210,7 +210,7 @@ def read_load(table: Table, scene: Scene, measures: Measures) -> Load | None:
         name = link_name(table.at("link"), link, findings) or ""
         if name == FRAME:
             found = message("the frame, which is at rest")
-            findings.add(table.at("link"), found, message("a moving link"))
+            table.wrong("link", found, message("a moving link"))
             name = ""
         elif name and known_link(scene, name, table.at("link"), findings) is None:
             name = ""
@@ -246,7 +246,7 @@ def force_of(
         return Directed(read, measures.angle(own.at("angle"), angle))
     if motion not in SENSES or angle is not None:
         expected = message('an angle, or motion = "along" or "against"')
-        measures.findings.add(own.at("motion"), shown(motion), expected)
+        own.wrong("motion", shown(motion), expected)
         return None
     return Directed(read, exact(0, "deg"), SENSES[str(motion)])
 
@@ -272,7 +272,7 @@ def size_of(
     name = links[0] if over is None and links else link_name(table.at("over"), over, findings)
     if name not in links or (over is None and len(links) > 1):
         expected = message("over = the link of a driver, {names}", names=listed(links))
-        findings.add(table.at("over"), shown(over), expected)
+        table.wrong("over", shown(over), expected)
         return nothing
     number = links.index(name)
     turns = scene.drivers[number].kind == "turn"

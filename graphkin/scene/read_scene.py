@@ -128,7 +128,7 @@ def read_into(
         scene = replace(scene, forces=forces)
     top.finish()
     check_scene(scene, findings)
-    scene = replace(scene, ask=read_ask(asked, findings, scene))
+    scene = replace(scene, ask=read_ask(asked, scene))
     note_structure(scene, findings)
     findings.stop()
     return scene
@@ -220,13 +220,13 @@ def assembled(
         frame=frame,
         links=links,
         drivers=drivers,
-        branches=read_branches(top.table("branches"), frame, links, findings),
+        branches=read_branches(top.table("branches"), frame, links),
         ask=Ask(),
         sheet=replace(sheet, signs=sheet.signs.beside(points)),
         positions=read_positions(top.table("positions"), drivers, measures),
         time=time,
         titles=read_languages(top.table("titles")),
-        names=read_names(top.table("names"), findings),
+        names=read_names(top.table("names")),
         notes=read_languages(top.table("notes")),
         values=values,
         source=source,
@@ -246,12 +246,12 @@ def read_units(table: Table, findings: Findings, house: House) -> tuple[dict[str
         raw = table.take(key)
         units[key] = raw if isinstance(raw, str) and raw in choices else choices[0]
         if raw is None and not lost:
-            findings.add(table.at(key), message("no unit of {key}", key=key), listed(choices))
+            table.wrong(key, message("no unit of {key}", key=key), listed(choices))
         elif raw is not None and raw != units[key]:
             spelt = str(raw).strip().lower()
             meant = SPELLINGS.get(spelt, spelt)
             hint = Mend(str(raw), meant) if meant in choices else NO_WORDS
-            findings.add(table.at(key), shown(raw), listed(choices), hint)
+            table.wrong(key, shown(raw), listed(choices), hint)
     if "force" in table:
         units["force"] = table.choice("force", tuple(FORCES), "N")
     else:
@@ -330,9 +330,7 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     if name == FRAME:
         for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:
-                measures.findings.add(
-                    table.at(key), message("the frame is at rest"), message("a moving link")
-                )
+                table.wrong(key, message("the frame is at rest"), message("a moving link"))
         drums = read_drums(table, measures)
         return Link(FRAME, points, placings, (), wheels, drums, profiles)
     slides = read_slides(table, measures)
@@ -444,8 +442,8 @@ def read_position(table: Table, key: str, unit: str, measures: Measures) -> Quan
     other = "position" if key == "angle" else "angle"
     if raw is None and other in table:
         table.take(other)
-        measures.findings.add(
-            table.at(other),
+        table.wrong(
+            other,
             message("this driver has no {other}", other=other),
             message("{key} = … in {unit}", key=key, unit=unit),
         )
@@ -487,6 +485,4 @@ def refuse_beside_law(table: Table, measures: Measures) -> None:
     for key in ("speed", "acceleration"):
         if table.take(key) is not None:
             found = message("{key} beside a law of time", key=key)
-            measures.findings.add(
-                table.at(key), found, message("none: it is the derivative of the law")
-            )
+            table.wrong(key, found, message("none: it is the derivative of the law"))

@@ -13,11 +13,16 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import VelocityNormal
-from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.component import component_of, is_hidden
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import GivesRate, Sentence, construction
+from graphkin.construction.core.kind import (
+    AuxiliaryPlan,
+    GivesRate,
+    Sentence,
+    auxiliary_plan,
+    construction,
+)
 from graphkin.construction.core.naming import segment_of
 from graphkin.construction.core.program import Part, Plane, Program, Step, is_set_on, plan_vector
 from graphkin.construction.higher_class.divided_point import DividedPoint

@@ -381,7 +381,7 @@ def own_values(lab: Lab, several: SeveralValues, student: Student, attempt: int)
             wrong = message(
                 "number {number} gets {value} twice", number=student.number, value=shortest(twice)
             )
-            raise SceneError(Problem(place, wrong, message("different values")))
+            raise SceneError.at(place, wrong, message("different values"))
         return found
     places: list[int] = []
     for part in range(1, several.count + 1):
@@ -400,7 +400,7 @@ def by_formula(rule: LabRule, student: Student) -> Settings:
     Raises SceneError where the number is missing, or a value is not rational.
     """
     if rule.counts and student.number is None:
-        raise SceneError(Problem("", message("has no number, and the lab's formula needs one")))
+        raise SceneError.at("", message("has no number, and the lab's formula needs one"))
     return {
         name: at_number(formula, student, f"set.{name}") for name, formula in rule.settings.items()
     }
@@ -416,7 +416,7 @@ def at_number(formula: Quantity, student: Student, place: str) -> Fraction:
             value=shortest(value),
             number=student.number,
         )
-        raise SceneError(Problem(place, wrong))
+        raise SceneError.at(place, wrong)
     return value
 
 

@@ -447,7 +447,7 @@ def stopped(folder: Path, error: OSError) -> PageError:
     """The error of a run that could not write: a full disk, or a folder without permission."""
     found = message("cannot be written: {error}", error=reason_of(error))
     hint = message("finished files are kept: correct this, then run the same command to continue")
-    return PageError(Problem(str(error.filename or folder), found, hint=hint))
+    return PageError.at(str(error.filename or folder), found, hint=hint)
 
 
 class PrintRun:

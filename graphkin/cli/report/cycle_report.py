@@ -218,7 +218,7 @@ def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
     for numbers, run in groupby(pieces, numbered):
         part = list(run)
         low, high = part[0].low.at, part[-1].high.at
-        if not is_short(cycle, low, high):
+        if at_words(cycle.sweep, low) != at_words(cycle.sweep, high):  # else too short to print
             stated = ", ".join(f'{name} = "closure {number}"' for name, number in numbers)
             yield f"{span_words(cycle, low, high)}: {stated}"
 
@@ -227,11 +227,6 @@ def numbered(piece: Piece) -> tuple[tuple[str, int], ...]:
     """The links whose closures are numbered on a piece, and their numbers."""
     found = piece.branches.items()
     return tuple((name, b.number) for name, b in found if isinstance(b, Closure))
-
-
-def is_short(cycle: Cycle, low: float, high: float) -> bool:
-    """Whether two places are printed with the same figures."""
-    return at_words(cycle.sweep, low) == at_words(cycle.sweep, high)
 
 
 def span_words(cycle: Cycle, low: float, high: float) -> str:

@@ -12,10 +12,9 @@ from itertools import groupby
 
 from msgspec import Struct, field
 
-from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Sentence, construction
+from graphkin.construction.core.kind import AuxiliaryPlan, Sentence, auxiliary_plan, construction
 from graphkin.construction.core.naming import (
     NAUGHT,
     drawn_between,

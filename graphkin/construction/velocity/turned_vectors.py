@@ -13,6 +13,7 @@ from graphkin.construction.core.kind import (
     EndsComponent,
     GivenVector,
     GivesRate,
+    auxiliary_plan,
     construction,
 )
 from graphkin.construction.core.naming import (
@@ -134,8 +135,6 @@ def falls_key(drawing: Drawing, number: int, start: str) -> str:
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
     """The rate by which a step lays off a vector, as words; a tried rate is named by its link."""
-    from graphkin.construction.core.auxiliary_plan import auxiliary_plan
-
     plan = auxiliary_plan(drawing, number)
     if plan is not None and link:
         own, lead = drawing.symbol(f"{letter}_{link}"), turning_with(drawing, plan.turned_by(rate))
