@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
-    from graphkin.construction.reactions import ForceSolution
+    from graphkin.construction.core.solution import ForceSolution
     from graphkin.construction.tape.emitted import BatchRunner
     from graphkin.loops.equilibrium import ForceVerdict
     from graphkin.loops.witness import Check
@@ -339,7 +339,7 @@ class Mechanism(Struct, frozen=True, dict=True):
         given = self.scene.forces
         if given is None:
             return None
-        from graphkin.construction.reactions import reactions_of
+        from graphkin.construction.core.solution import reactions_of
         from graphkin.loops.equilibrium import (
             by_equations,
             by_power_alone,

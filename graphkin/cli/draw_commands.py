@@ -213,9 +213,9 @@ def cycle(
     )
     from graphkin.motion.cycle import cycle as moved
     from graphkin.motion.equal_positions import equal_positions
+    from graphkin.motion.extremes import all_extremes
     from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
-    from graphkin.motion.transmission import all_extremes
     from graphkin.text.tables import csv_text
     from graphkin.writers.files import file_stem, refuse_folder, write_all
 

@@ -70,8 +70,8 @@ def import_scene(
       graphkin import shared.pmks
       graphkin import engine.ggb --fixed O --drive O-A --slide B=0
     """
-    from graphkin.importing.figure import Completion
     from graphkin.importing.formats import EXPRESSION, LINK, content, imported
+    from graphkin.importing.record import Completion
     from graphkin.importing.scene_text import scene_text
     from graphkin.writers.files import write_apart
 

@@ -253,7 +253,7 @@ def draw_centres(pen: Pen, bases: Sequence[Base]) -> None:
     for base in bases:
         draw_pole(pen, base)
         if base.link in pen.scene.ask.inflection:
-            from graphkin.construction.centres.inflection import draw_circle
+            from graphkin.construction.centres.path_curvature import draw_circle
 
             draw_circle(pen, base)
     for name in pen.scene.ask.curvature:

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping
 from itertools import takewhile
 from typing import Any, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
     Measured,
@@ -19,7 +18,7 @@ from graphkin.construction.core.component import (
     TriangleComponent,
 )
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
-from graphkin.construction.core.kind import ByHand, Slip, Wording, construction
+from graphkin.construction.core.kind import ByHand, Canvas, Slip, Wording, construction
 from graphkin.construction.core.naming import (
     NAUGHT,
     laid_off_words,

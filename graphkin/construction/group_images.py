@@ -37,8 +37,11 @@ from graphkin.construction.velocity.image_of_link import (
     source_of,
     translated_image,
 )
-from graphkin.construction.velocity.relative_motion import parallel_through, perpendicular_through
-from graphkin.construction.velocity.turned_vectors import accelerated
+from graphkin.construction.velocity.relative_motion import (
+    accelerated,
+    parallel_through,
+    perpendicular_through,
+)
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.scene.model import Driver
 from graphkin.structure.groups import (

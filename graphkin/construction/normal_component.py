@@ -24,7 +24,6 @@ from typing import Any, ClassVar
 from msgspec import Struct
 
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import (
     LaidOff,
     Measured,
@@ -34,7 +33,15 @@ from graphkin.construction.core.component import (
     component_ending_at,
 )
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Sentence, Slip, Wording, in_one, together
+from graphkin.construction.core.kind import (
+    ByHand,
+    Canvas,
+    Sentence,
+    Slip,
+    Wording,
+    in_one,
+    together,
+)
 from graphkin.construction.core.naming import laid_off_words, letter_at, plan_amount, rate_symbol
 from graphkin.construction.core.palette import (
     NUMBERS,

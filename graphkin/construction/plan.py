@@ -27,7 +27,7 @@ from graphkin.construction.core.program import OwnStep, Part, Plane, plan_vector
 from graphkin.construction.core.quantities import EPSILON, MOTION, OMEGA, PLANES, RATE, SLIDING
 from graphkin.construction.core.relation import FINE, Relation, figure, length_of, put_in, within
 from graphkin.construction.core.vocabulary import action, difference, sum_of
-from graphkin.construction.velocity.turned_vectors import (
+from graphkin.construction.velocity.relative_motion import (
     turned_acceleration_image,
     turned_velocity_image,
 )

@@ -28,7 +28,7 @@ from graphkin.construction.core.palette import (
 )
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.coriolis import CoriolisComponent
-from graphkin.construction.forces.belt_force import BeltStrand
+from graphkin.construction.forces.line_force import BeltStrand
 from graphkin.construction.forces.loads import InertiaForce, InertiaMoment, PassedReaction, Weight
 from graphkin.construction.forces.moments import ForceArm, TangentialPart
 from graphkin.construction.forces.polygon import ClosedByLines
@@ -41,7 +41,7 @@ from graphkin.construction.normal_component import (
 )
 from graphkin.construction.rolling.contact_points import TOUCHING, TouchingEffect, of_contacts
 from graphkin.construction.rolling.kutzbach import BEGINNING, PLAN, with_ladder_together
-from graphkin.construction.rolling.rolling_normal import RollingNormal
+from graphkin.construction.rolling.wheel_images import RollingNormal
 
 COMPONENTS: tuple[type[Component], ...] = (NormalComponent, RollingNormal, CoriolisComponent)
 """The acceleration components that follow from velocities."""

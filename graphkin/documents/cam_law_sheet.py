@@ -37,7 +37,7 @@ from graphkin.drawing.scale import preferred
 from graphkin.drawing.symbol_markup import escape
 from graphkin.motion.course import Reals
 from graphkin.motion.driving import stated_motion
-from graphkin.motion.transmission import MOST_PRESSURE
+from graphkin.motion.extremes import MOST_PRESSURE
 
 IN_PIECE = 240
 """Samples of a piece of the law."""

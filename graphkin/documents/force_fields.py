@@ -21,13 +21,12 @@ from graphkin.construction.core.program import Part, Plane, Target
 from graphkin.construction.core.quantities import FORCE, SHEETS
 from graphkin.construction.core.relation import figure
 from graphkin.construction.core.run import Trace, run
-from graphkin.construction.core.solution import UNPROVED
+from graphkin.construction.core.solution import UNPROVED, ForceSolution
 from graphkin.construction.forces.force_drawing import ForceDrawing, ForceExtents, ForceLayout
 from graphkin.construction.forces.force_plan import undrawn
 from graphkin.construction.forces.lever import LeverPole
 from graphkin.construction.forces.loads import AppliedForce
 from graphkin.construction.forces.polygon import PolygonStart, links_words
-from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.scaling import curves_drawn, drawing, targets_of
 from graphkin.drawing.field import Field, Rect
 from graphkin.drawing.labels import FieldContent

@@ -33,14 +33,14 @@ from graphkin.motion.course import Reals
 from graphkin.motion.cycle import Cycle, columns_at, cycle_at
 from graphkin.motion.driving import TURN
 from graphkin.motion.equal_positions import Start, equal_places, sense_of
-from graphkin.motion.follower_limits import Follower, followers
+from graphkin.motion.follower_limits import Follower, followers, is_to_and_fro
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
-from graphkin.motion.travel import is_to_and_fro
 from graphkin.scene.link_points import lettered, point_of
 from graphkin.scene.model import StatedPositions
 from graphkin.scene.quantity import Quantity, shortest
 from graphkin.scene.requests import FEWEST_STEPS, MOST_STEPS
+from graphkin.structure.groups import ROMAN
 from graphkin.text import Words
 from graphkin.text.errors import GraphkinError, Problem, SceneError, WitnessError, message
 
@@ -52,8 +52,6 @@ MOVED = ("position", "slide")
 """Targets of a batch of positions that move with the driver."""
 BELOW = 1e-3
 """Degrees below its low limit at which the angle of a link still counts from there."""
-ROMAN = ("I", "II", "III", "IV", "V", "VI")
-"""The names of dead points."""
 
 
 class Position(Struct, frozen=True):
@@ -245,7 +243,7 @@ def dead_places(moved: Cycle, travel: Follower | None) -> list[tuple[str, float]
     for u in sorted(ends):
         if not every or u - every[-1] > apart:
             every.append(u)
-    return list(zip(ROMAN, every, strict=False))
+    return list(zip(ROMAN[1:], every, strict=False))
 
 
 def also_at(

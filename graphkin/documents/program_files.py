@@ -21,9 +21,9 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from msgspec.json import encode, format
 
-from graphkin.construction.core.drawn_scene import METRES
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME, Link, Scene, Slide
+from graphkin.scene.quantity import METRES
 from graphkin.structure.turning import body, guide_line, metres
 from graphkin.text.errors import NO_WORDS, Hint, Message, PageError, Problem, message
 

@@ -43,18 +43,29 @@ from graphkin.construction.core.relation import (
     value_of,
 )
 from graphkin.construction.drivers.driven_slide import DrivenSlide
-from graphkin.construction.drivers.driver_relations import KA, laid_bars, of_driver, of_scales
 from graphkin.construction.higher_class.divided_point import SHARE
 from graphkin.construction.higher_class.two_trials import of_trials
 from graphkin.construction.links.plate_points import of_rolled_turns
-from graphkin.construction.rate_relations import by_radius, of_slides, of_sum, of_turning
+from graphkin.construction.rate_relations import (
+    KA,
+    by_radius,
+    laid_bars,
+    of_driver,
+    of_scales,
+    of_slides,
+    of_sum,
+    of_turning,
+)
 from graphkin.construction.registry import ALSO_READ, COMPONENTS
 from graphkin.construction.result_tables import slide_sense, slides_asked
-from graphkin.construction.velocity.relative_motion import as_relation
-from graphkin.construction.velocity.turned_vectors import TurnedAcceleration, TurnedVelocity
+from graphkin.construction.velocity.relative_motion import (
+    TurnedAcceleration,
+    TurnedVelocity,
+    as_relation,
+)
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.mechanism import Mechanism
-from graphkin.motion.travel import travels
+from graphkin.motion.follower_limits import travels
 from graphkin.numbers.plane import Ratio, Vector
 from graphkin.scene.findings import natural
 from graphkin.scene.link_points import lettered

@@ -33,8 +33,8 @@ from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.program import Part, Plane, Step, is_set_on, plan_vector
 from graphkin.construction.core.quantities import FORCE, number_of, quantity_text, request
 from graphkin.construction.core.relation import Relation, answer, beside_plan, figure
-from graphkin.construction.forces.belt_force import belt_letter
 from graphkin.construction.forces.force_drawing import ForceDrawing
+from graphkin.construction.forces.line_force import belt_letter
 from graphkin.construction.forces.loads import (
     InertiaForce,
     InertiaMoment,

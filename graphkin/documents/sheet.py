@@ -38,12 +38,12 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.relation import beside_plan, figure
 from graphkin.construction.drivers import driver_symbols
-from graphkin.construction.drivers.driver_relations import driven_bars, plan_scales
 from graphkin.construction.guides.slide_symbols import covered
 from graphkin.construction.links import mechanism_symbols
 from graphkin.construction.links.mechanism_symbols import settle_in_plates
+from graphkin.construction.rate_relations import driven_bars, plan_scales
 from graphkin.construction.result_tables import COMPUTED, tables
-from graphkin.construction.velocity.turned_vectors import TurnedVelocity
+from graphkin.construction.velocity.relative_motion import TurnedVelocity
 from graphkin.documents.detail import insets, parted
 from graphkin.documents.listing import around_tables, first_part, listed
 from graphkin.documents.scheme import scheme

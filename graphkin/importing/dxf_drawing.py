@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from itertools import islice, pairwise, product
 from typing import Any
 
-from graphkin.importing.figure import NEAR, BarFigure
-from graphkin.importing.record import named, number, refused
+from graphkin.importing.record import NEAR, BarFigure, named, number, refused
 from graphkin.text.errors import Message, SceneError, joined, message
 
 PROGRAM = "DXF"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from graphkin.importing.figure import Completion
-from graphkin.importing.record import Imported, damaged, refused
+from graphkin.importing.record import Completion, Imported, damaged, refused
 from graphkin.scene.file_limits import LARGEST, file_bytes
 from graphkin.text.errors import message
 
@@ -68,13 +67,13 @@ def imported(text: str, tracing: Completion = UNTRACED) -> Imported:
     text = text.strip()
     try:
         if text.startswith("<") and "<geogebra" in text:
-            from graphkin.importing.figure import traced
             from graphkin.importing.geogebra import geogebra_figure
+            from graphkin.importing.record import traced
 
             return traced(geogebra_figure(text), tracing)
         if DXF.match(text):
             from graphkin.importing.dxf_drawing import dxf_figure
-            from graphkin.importing.figure import traced
+            from graphkin.importing.record import traced
 
             return traced(dxf_figure(text), tracing)
         if text.startswith("<") and "<linkage" in text:

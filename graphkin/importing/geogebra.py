@@ -13,8 +13,7 @@ from itertools import pairwise
 from xml.etree.ElementTree import Element
 from zipfile import BadZipFile, ZipFile
 
-from graphkin.importing.figure import BarFigure
-from graphkin.importing.record import few, named, number, refused, safe_xml
+from graphkin.importing.record import BarFigure, few, named, number, refused, safe_xml
 from graphkin.text.errors import Message, SceneError, joined, message
 
 PROGRAM = "GeoGebra"

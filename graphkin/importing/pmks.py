@@ -22,7 +22,6 @@ from urllib.parse import parse_qs
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.core.drawn_scene import METRES
 from graphkin.documents.program_files import (
     ALPHABET,
     EXACT,
@@ -50,6 +49,7 @@ from graphkin.importing.record import (
     refused,
     unknown_unit,
 )
+from graphkin.scene.quantity import METRES
 from graphkin.text.errors import Message, message
 
 UNITS = {"0": "in", "1": "cm", "2": "m"}

@@ -13,7 +13,6 @@ from pathlib import PurePath
 from msgspec import Struct
 
 from graphkin.construction.core.branches import key_of
-from graphkin.construction.core.drawn_scene import METRES
 from graphkin.diagnosis.closures import Choice, GroupClosure, choices
 from graphkin.importing.record import (
     FARTHEST,
@@ -28,6 +27,7 @@ from graphkin.importing.record import (
 )
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME
+from graphkin.scene.quantity import METRES
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count

@@ -16,7 +16,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.construction.reactions import Balance, ForceSolution, PairReaction
+from graphkin.construction.core.solution import Balance, ForceSolution, PairReaction
 from graphkin.loops.equations import guide_on
 from graphkin.loops.loop_motion import Motion
 from graphkin.loops.rigid_bodies import Reals

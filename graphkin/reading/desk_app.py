@@ -37,7 +37,7 @@ from graphkin.reading.settled_points import (
     settled_points,
 )
 from graphkin.studio.server import JSON, answer, answering, new_application
-from graphkin.studio.session import PageRequestError
+from graphkin.studio.session import PageRequestError, requested
 from graphkin.text import Words, as_text
 from graphkin.text.errors import PageError, Problem, message
 from graphkin.writers.templates import from_template, marked_up
@@ -115,10 +115,7 @@ class DrawingDesk(Struct, dict=True):
 
     def decide(self, data: bytes) -> dict[str, Any]:
         """Record a decision. Raises PageRequestError for an unknown point or invalid decision."""
-        try:
-            decision = msgspec.json.decode(data, type=PointDecision)
-        except msgspec.MsgspecError as error:
-            raise PageRequestError(str(error)) from None
+        decision = requested(data, PointDecision)
         record = self.records.get(self.named.get(decision.sheet, ""))
         steps = {point.step for point in record.points} if record is not None else set()
         on_paper = decision.at is None or (
@@ -257,10 +254,7 @@ class DeskSession(Struct, dict=True):
 
     def news(self, data: bytes) -> dict[str, Any]:
         """Everything again, if anybody decided since the page had ``data`` (a count); else {}."""
-        try:
-            known = msgspec.json.decode(data, type=list[int])
-        except msgspec.MsgspecError as error:
-            raise PageRequestError(str(error)) from None
+        known = requested(data, list[int])
         with self.lock:
             found = self.overview()
             return {} if found["count"] == known else found

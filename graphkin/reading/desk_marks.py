@@ -7,7 +7,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -37,7 +36,7 @@ from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Stat
 from graphkin.classroom.grading.grading_files import KeptReport
 from graphkin.classroom.roster.students import signs
 from graphkin.reading.desk_queue import DeskItem, DeskQueue
-from graphkin.studio.session import PageRequestError
+from graphkin.studio.session import PageRequestError, requested
 from graphkin.text import Words
 from graphkin.text.errors import Problem
 from graphkin.writers.shared_lines import Said
@@ -290,7 +289,7 @@ class MarkDesk(Struct, dict=True):
 
     def decide(self, data: bytes) -> dict[str, Any]:
         """Record a decision, all of it in one line. Raises PageRequestError where it is invalid."""
-        asked = decoded(data, DeskRequest)
+        asked = requested(data, DeskRequest)
         item = self.item(asked.item)
         if any(each is not None and not each.is_open for each in map(self.of_table, item.places)):
             raise PageRequestError(self.words("desk.in_table"))
@@ -325,7 +324,7 @@ class MarkDesk(Struct, dict=True):
 
     def remark(self, data: bytes) -> dict[str, Any]:
         """Record a remark on a row. Raises PageRequestError where it is invalid."""
-        asked = decoded(data, RemarkRequest)
+        asked = requested(data, RemarkRequest)
         item = self.item(asked.item)
         if not 0 <= asked.row < len(item.shown) or len(asked.text) > LONGEST:
             raise PageRequestError(str(asked.row))
@@ -364,11 +363,3 @@ def with_reason(ruling: AnyRuling, reason: str) -> AnyRuling:
     if isinstance(ruling, SetPoints | LeaveMark) and reason.strip():
         return replace(ruling, reason=reason.strip())
     return ruling
-
-
-def decoded(data: bytes, kind: type[Any]) -> Any:
-    """A request of the page. Raises PageRequestError for anything else."""
-    try:
-        return msgspec.json.decode(data, type=kind)
-    except msgspec.MsgspecError as error:
-        raise PageRequestError(str(error)) from None

@@ -7,7 +7,7 @@ the scene itself states goes before them.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from io import BytesIO
 from typing import Any, Literal
 
@@ -102,7 +102,7 @@ PLAIN = House()
 class HouseKey(Struct, frozen=True):
     """A key of house.toml: its table and name, its reader, its meaning, and an example in TOML.
 
-    ``gives`` is the field of the record; the keys of signs give one record together.
+    ``called`` is the field of the record where it has another name than the key.
     """
 
     table: str
@@ -110,7 +110,12 @@ class HouseKey(Struct, frozen=True):
     reads: Callable[[Table, str, str], Any]
     words: str
     example: str
-    gives: str = ""
+    called: str = ""
+
+    @property
+    def gives(self) -> str:
+        """The field of the record; empty for signs, which give one record together."""
+        return "" if self.table == "signs" else self.called or self.name
 
 
 # --- readers of single keys -----------------------------------------------------------------------
@@ -143,24 +148,15 @@ def labels(table: Table, key: str, folder: str) -> dict[str, str]:
     return found
 
 
-def choice(*words: str) -> Callable[[Table, str, str], str]:
-    """The reader of one of some words, the first by default."""
-    return lambda table, key, folder: table.choice(key, words, words[0])
+def choice(words: Iterable[str], usual: str) -> Callable[[Table, str, str], str]:
+    """The reader of one of some words, with the usual one where none is stated."""
+    known = tuple(words)
+    return lambda table, key, folder: table.choice(key, known, usual)
 
 
-def paper(table: Table, key: str, folder: str) -> str:
-    """The name of a paper."""
-    return table.choice(key, tuple(PAPERS), USUAL_PAPER)
-
-
-def frame(table: Table, key: str, folder: str) -> str:
-    """The name of a frame; empty where none is stated."""
-    return table.choice(key, FRAMES, FRAMES[0]) if key in table else ""
-
-
-def results(table: Table, key: str, folder: str) -> str:
-    """The unit of results; empty where none is stated."""
-    return table.choice(key, RESULTS, RESULTS[0]) if key in table else ""
+def stated(words: tuple[str, ...]) -> Callable[[Table, str, str], str]:
+    """The reader of one of some words; empty where none is stated."""
+    return lambda table, key, folder: table.choice(key, words, words[0]) if key in table else ""
 
 
 def steps(table: Table, key: str, folder: str) -> tuple[float, ...]:
@@ -279,61 +275,54 @@ HOUSE_KEYS = (
         logo,
         "a picture beside the lines in the title block: a PNG or SVG file beside this file",
         '"logo.png"',
-        "logo",
     ),
-    HouseKey("title", "author", text, "who made the sheets", '"A. Lecturer"', "author"),
-    HouseKey("title", "approved", text, "who approved them", '"B. Lecturer"', "approved"),
+    HouseKey("title", "author", text, "who made the sheets", '"A. Lecturer"'),
+    HouseKey("title", "approved", text, "who approved them", '"B. Lecturer"'),
     HouseKey(
         "title",
         "labels",
         labels,
         f"other labels of cells: {', '.join(CELLS)}; the student's box keeps its own",
         '{ legal_owner = "School", creator = "Author" }',
-        "labels",
     ),
     HouseKey(
         "pages",
         "language",
-        choice("en", *(code for code in LANGUAGES if code != "en")),
+        choice(("en", *(code for code in LANGUAGES if code != "en")), "en"),
         f"the language of pages: {quoted(LANGUAGES)}",
         '"en"',
-        "language",
     ),
     HouseKey(
         "pages",
         "paper",
-        paper,
+        choice(PAPERS, USUAL_PAPER),
         f"the paper of sheets: {quoted(tuple(PAPERS))}. On A4, mechanism and plan are on two pages"
         " that lie side by side",
         '"ANSI B"',
-        "paper",
     ),
     HouseKey(
         "pages",
         "frame",
-        frame,
+        stated(FRAMES),
         f"the frame and the title block of A1 to A4: {quoted(FRAMES)} (2.104, form 1). By default"
         " GOST with the russian signs, else ISO; ANSI papers have those of ASME Y14.1",
         '"GOST"',
-        "frame",
     ),
     HouseKey(
         "pages",
         "ink",
-        choice(*INKS),
+        choice(INKS, INKS[0]),
         "black: for printers without colour; line styles distinguish the vectors",
         '"black"',
-        "ink",
     ),
     HouseKey(
         "units",
         "results",
-        results,
+        stated(RESULTS),
         f"the unit of lengths in results: {quoted(RESULTS)}; speeds are per s. By default inches"
         " for a scene in inches, feet for one in feet, else metres. Forces are in lbf with inches"
         " or feet, else in N",
         '"scene"',
-        "results",
     ),
     HouseKey(
         "scales",
@@ -342,7 +331,6 @@ HOUSE_KEYS = (
         "the first digits n of the scales 1:n and n:1 among which the program chooses. By default"
         " those of ISO 5455 first, and 1, 2, 4 and 8 for a scene in inches or feet",
         "[1, 2, 5]",
-        "steps",
     ),
     HouseKey(
         "lines",
@@ -350,7 +338,6 @@ HOUSE_KEYS = (
         thick,
         "the width of thick lines in mm, with which all others change: 0.25, 0.35, 0.5 or 0.7",
         "0.35",
-        "thick",
     ),
     HouseKey("signs", SET, text, f"the signs of a school: {quoted(tuple(SCHOOLS))}", '"english"'),
     *(HouseKey("signs", name, text, MEANINGS[name], f'"{getattr(USUAL, name)}"') for name in NAMES),

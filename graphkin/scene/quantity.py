@@ -40,6 +40,8 @@ LENGTHS = {
     "in": Fraction(254, 10000),
     "ft": Fraction(3048, 10000),
 }
+METRES = {unit: float(size) for unit, size in LENGTHS.items()}
+"""Metres in each unit in which a scene may write lengths: exact, and as numbers."""
 POUND = Fraction("0.45359237")
 """A pound in kilograms."""
 STANDARD_GRAVITY = Fraction("9.80665")

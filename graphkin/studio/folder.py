@@ -10,7 +10,6 @@ import re
 import unicodedata
 from base64 import b64decode
 from binascii import Error
-from collections.abc import Mapping
 from functools import lru_cache
 from itertools import count
 from pathlib import Path, PurePath
@@ -18,8 +17,8 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.importing.figure import Completion
 from graphkin.importing.formats import content, imported, is_drawing, text_of
+from graphkin.importing.record import Completion
 from graphkin.importing.scene_text import scene_text
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import LARGEST, decoded, read_bytes, tables_of
@@ -279,11 +278,11 @@ def asks_more(order: Brought) -> bool:
         return False
 
 
-def tracing_of(fields: Mapping[str, str]) -> Completion:
+def tracing_of(fixed: str, drive: str, slides: str) -> Completion:
     """What the page says of a drawing: fixed points, the driven bar, and sliding points."""
-    slides = (word.partition("=") for word in fields["slides"].replace(",", " ").split())
+    sliding = (word.partition("=") for word in slides.replace(",", " ").split())
     return Completion(
-        tuple(fields["fixed"].replace(",", " ").split()),
-        tuple(part.strip() for part in fields["drive"].split("-") if part.strip()),
-        {name: angle or "0" for name, _, angle in slides},
+        tuple(fixed.replace(",", " ").split()),
+        tuple(part.strip() for part in drive.split("-") if part.strip()),
+        {name: angle or "0" for name, _, angle in sliding},
     )

@@ -39,6 +39,7 @@ from graphkin.studio.session import (
     PageRequest,
     PageRequestError,
     Session,
+    requested,
 )
 from graphkin.text import LANGUAGES, Words, keys
 from graphkin.text.errors import GraphkinError, PageError, Problem, message
@@ -174,7 +175,7 @@ def application(session: Session) -> Any:
 def done_by(session: Session, name: str) -> Callable[[bytes], bytes]:
     """The handler of a session for a request."""
     work = getattr(session, name)
-    return lambda data: record(work(PageRequest(data)))
+    return lambda data: record(work(requested(data, PageRequest)))
 
 
 def scenes(session: Session) -> Any:

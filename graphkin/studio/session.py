@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections import OrderedDict
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from difflib import unified_diff
 from fractions import Fraction
@@ -13,9 +12,9 @@ from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from threading import Condition, Lock
-from typing import Any
+from typing import Annotated, Any, TypeVar
 
-from msgspec import Struct, to_builtins
+from msgspec import Meta, MsgspecError, Struct, json, to_builtins
 
 from graphkin.classroom.lab.lab_model import exact_text
 from graphkin.classroom.lab.new_lab import START, rules_for
@@ -263,146 +262,7 @@ def number_of(value: str, findings: Findings) -> Fraction | None:
     return None if read is None else plain(read)
 
 
-# --- the requests of the page: every field must have its kind and size ----------------------------
-
-
-MOST_BYTES = 4 * LARGEST
-"""Largest number of bytes of a request.
-
-It is the size of the largest scene with every character escaped, except the rarest characters.
-"""
-MOST_SETTINGS, LONGEST_SETTING = 200, 100
-MOST_PLACES, FARTHEST = 500, 1e9
-"""Largest number of points with places, and largest distance of a point."""
-SHORT = 300
-"""Largest number of characters of names and marks."""
-
-
-class PageRequestError(Exception):
-    """A request that the page does not make."""
-
-
-class PageRequest:
-    """The fields of a request by name; reading an invalid field raises PageRequestError."""
-
-    def __init__(self, data: bytes) -> None:
-        try:
-            fields = json.loads(data.decode("utf-8"))
-        except (ValueError, RecursionError):
-            raise PageRequestError("no JSON") from None
-        if not isinstance(fields, dict):
-            raise PageRequestError("no object")
-        self.fields: dict[str, Any] = fields
-
-    def text(self, key: str, most: int = SHORT) -> str:
-        """A text; empty where it is missing."""
-        found = self.fields.get(key, "")
-        if not isinstance(found, str) or len(found) > most:
-            raise PageRequestError(key)
-        try:
-            found.encode("utf-8")
-        except UnicodeEncodeError:
-            raise PageRequestError(key) from None
-        return found
-
-    def scene(self) -> str:
-        """The text of a scene; the reader of scenes refuses one that is too large."""
-        return self.long_text("text")
-
-    def long_text(self, key: str) -> str:
-        """A text as long as a scene may be."""
-        return self.text(key, MOST_BYTES)
-
-    def flag(self, key: str) -> bool:
-        """A boolean; False where it is missing."""
-        found = self.fields.get(key, False)
-        if not isinstance(found, bool):
-            raise PageRequestError(key)
-        return found
-
-    def number(self, key: str) -> int:
-        """A whole number; 0 where it is missing."""
-        found = self.fields.get(key, 0)
-        if not isinstance(found, int) or isinstance(found, bool) or not 0 <= found < 2**53:
-            raise PageRequestError(key)
-        return found
-
-    def choice(self, key: str, known: tuple[str, ...]) -> str:
-        """One of some words; the first where it is missing."""
-        found = self.fields.get(key, known[0])
-        if found not in known:
-            raise PageRequestError(key)
-        return str(found)
-
-    def choices(self, key: str, known: tuple[str, ...]) -> tuple[str, ...]:
-        """A selection of some words, in their order; at least one."""
-        found = self.fields.get(key)
-        if not isinstance(found, list) or not found or any(word not in known for word in found):
-            raise PageRequestError(key)
-        return tuple(word for word in known if word in found)
-
-    def place(self, key: str) -> complex:
-        """A place in the field; the origin where it is missing."""
-        return place_of(key, self.fields.get(key, [0, 0]))
-
-    def places(self) -> dict[str, complex]:
-        """The places of points, by their names."""
-        found = self.fields.get("places", {})
-        if not isinstance(found, dict) or len(found) > MOST_PLACES:
-            raise PageRequestError("places")
-        return {name: place_of("places", at) for name, at in found.items() if len(name) <= SHORT}
-
-    def names(self, key: str) -> tuple[str, ...]:
-        """At most two names."""
-        found = self.fields.get(key, [])
-        if not isinstance(found, list) or len(found) > 2:
-            raise PageRequestError(key)
-        if not all(isinstance(name, str) and 0 < len(name) <= SHORT for name in found):
-            raise PageRequestError(key)
-        return tuple(found)
-
-    def settings(self) -> dict[str, str]:
-        """The values of sliders, as texts."""
-        found = self.fields.get("settings", {})
-        if not isinstance(found, dict) or len(found) > MOST_SETTINGS:
-            raise PageRequestError("settings")
-        for value in found.values():
-            if not isinstance(value, str) or not 0 < len(value) <= LONGEST_SETTING:
-                raise PageRequestError("settings")
-        return dict(found)
-
-
-def place_of(key: str, found: Any) -> complex:
-    """A place as the page sends it. Raises PageRequestError for any other value."""
-    if not isinstance(found, list) or len(found) != 2:
-        raise PageRequestError(key)
-    for value in found:
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        if not number or not abs(value) <= FARTHEST:
-            raise PageRequestError(key)
-    return complex(*found)
-
-
-# --- the state of the studio while it runs --------------------------------------------------------
-
-
-OPENED = ("lab", "example", "like", "empty", "scene")
-"""The keys with which an address may open something."""
-PICTURED = ("scene", "lab", "example")
-"""The kinds of entries with a picture in the gallery."""
-TABS = 8
-"""Number of pages whose last drawing is remembered."""
-EMPTY = """graphkin = 1
-title = "New mechanism"
-units = { length = "mm", angle = "deg", speed = "rev/min" }
-"""
-"""A scene in which nothing is built yet."""
-FIRST = "graphkin ="
-"""The start of the first line of a scene."""
-
-
-def language_in(order: PageRequest) -> str:
-    return order.choice("language", LANGUAGES)
+# --- the pages of a moving mechanism --------------------------------------------------------------
 
 
 MovingPage = Callable[[Mechanism, str, str, int | None], str]
@@ -437,6 +297,109 @@ MOVING_PAGES: Mapping[str, MovingPage] = {
     **{view: partial(all_sheets, view) for view in MOTION_VIEWS},
 }
 MOVING = tuple(MOVING_PAGES)
+
+
+# --- the requests of the page: every field must have its kind and size ----------------------------
+
+
+MOST_BYTES = 4 * LARGEST
+"""Largest number of bytes of a request.
+
+It is the size of the largest scene with every character escaped, except the rarest characters.
+"""
+FARTHEST = 1e9
+"""Largest distance of a point."""
+
+
+class PageRequestError(Exception):
+    """A request that the page does not make."""
+
+
+def one_of(known: Iterable[str]) -> Meta:
+    """The texts of a field that holds one of some words."""
+    return Meta(pattern=rf"\A(?:{'|'.join(known)})\Z")
+
+
+Name = Annotated[str, Meta(max_length=300)]
+"""A name, a mark, or a few words."""
+Said = Annotated[str, Meta(min_length=1, max_length=300)]
+"""A name that is not empty."""
+LongText = Annotated[str, Meta(max_length=MOST_BYTES)]
+"""A text as long as a scene may be; the reader of scenes refuses one that is too large."""
+Count = Annotated[int, Meta(ge=0, lt=2**53)]
+Coordinate = Annotated[float, Meta(ge=-FARTHEST, le=FARTHEST)]
+Place = tuple[Coordinate, Coordinate]
+SliderValue = Annotated[str, Meta(min_length=1, max_length=100)]
+"""The value of a slider."""
+
+
+class PageRequest(Struct, frozen=True):
+    """What the page asks, with the kind and size of each field; it leaves out what is not needed.
+
+    ``tab`` and ``number`` tell the requests of open pages apart. ``places`` are those of points.
+    """
+
+    tab: Name = ""
+    number: Count = 0
+    text: LongText = ""
+    name: Name = ""
+    rules: LongText = ""
+    mark: Name = ""
+    rules_mark: Name = ""
+    replace: bool = False
+    language: Annotated[str, one_of(LANGUAGES)] = LANGUAGES[0]
+    page_language: Annotated[str, one_of(LANGUAGES)] = LANGUAGES[0]
+    settings: Annotated[dict[str, SliderValue], Meta(max_length=200)] = {}
+    mechanism: Annotated[str, one_of(SHEETS)] = SHEETS[0]
+    quick: bool = False
+    building: bool = False
+    places: Annotated[dict[Name, Place], Meta(max_length=500)] = {}
+    kind: Name = ""
+    of: Annotated[tuple[Said, ...], Meta(max_length=2)] = ()
+    at: Place = (0.0, 0.0)
+    speed: Place = (0.0, 0.0)
+    words: Name = ""
+    exact: bool = False
+    view: Annotated[str, one_of(VIEWS)] = VIEWS[0]
+    formats: tuple[Annotated[str, one_of(FORMATS)], ...] = ()
+    page: Annotated[str, one_of(MOVING)] = MOVING[0]
+    driver: Count = 0
+    line: Count = 0
+    column: Count = 0
+    file: LongText = ""
+    pasted: LongText = ""
+    fixed: Name = ""
+    drive: Name = ""
+    slides: Name = ""
+
+
+Request = TypeVar("Request")
+
+
+def requested(data: bytes, kind: type[Request]) -> Request:
+    """A request of a page on this computer. Raises PageRequestError for anything else."""
+    try:
+        return json.decode(data, type=kind)
+    except (MsgspecError, UnicodeDecodeError, RecursionError) as error:
+        raise PageRequestError(str(error)) from None
+
+
+# --- the state of the studio while it runs --------------------------------------------------------
+
+
+OPENED = ("lab", "example", "like", "empty", "scene")
+"""The keys with which an address may open something."""
+PICTURED = ("scene", "lab", "example")
+"""The kinds of entries with a picture in the gallery."""
+TABS = 8
+"""Number of pages whose last drawing is remembered."""
+EMPTY = """graphkin = 1
+title = "New mechanism"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+"""
+"""A scene in which nothing is built yet."""
+FIRST = "graphkin ="
+"""The start of the first line of a scene."""
 
 
 class Opened(Struct, frozen=True):
@@ -529,14 +492,9 @@ class Session:
         """A file, link or text of another program as the text of a scene."""
         from graphkin.studio.folder import Brought, asks_more, brought, tracing_of
 
-        words = {key: order.text(key) for key in ("fixed", "drive", "slides")}
-        language = language_in(order)
-        given = Brought(
-            order.long_text("file"),
-            order.text("name"),
-            order.long_text("pasted"),
-            tracing_of(words),
-        )
+        language = order.language
+        tracing = tracing_of(order.fixed, order.drive, order.slides)
+        given = Brought(order.file, order.name, order.pasted, tracing)
         found = or_problems(
             lambda: brought(given, language), "", language, text="", name="", notes=[]
         )
@@ -546,30 +504,30 @@ class Session:
         """The address of what the manual says about the key at a place of a text."""
         from graphkin.manual.pages import address_at
 
-        line, column = order.number("line"), order.number("column")
-        return {"address": f"manual/{address_at(order.scene(), line, column)}"}
+        line, column = order.line, order.column
+        return {"address": f"manual/{address_at(order.text, line, column)}"}
 
     def look(self, order: PageRequest) -> dict[str, Any]:
         """The view of a text, or only that it is stale if a newer view has been requested."""
-        tab, number = order.text("tab"), order.number("number")
+        tab, number = order.tab, order.number
         sight = Sight(
-            order.scene(),
-            stem_of(order.text("name")),
-            language_in(order),
-            order.settings(),
-            order.choice("mechanism", SHEETS),
-            order.flag("quick"),
+            order.text,
+            stem_of(order.name),
+            order.language,
+            order.settings,
+            order.mechanism,
+            order.quick,
             str(self.folder.root),
         )
-        there = {"there": self.folder.holds(order.text("name"))}
+        there = {"there": self.folder.holds(order.name)}
         self.arrived(tab, number)
         try:
             with self.drawing(lambda: self.still_wanted(tab, number)):
                 found = there | look(
                     sight, self.memory(tab), lambda: self.still_wanted(tab, number)
                 )
-                if order.flag("building"):
-                    places = order.places()
+                if order.building:
+                    places = {name: complex(*at) for name, at in order.places.items()}
                     seen = sketch(sight.text, sight.name, places, sight.settings)
                     found["sketch"] = seen and to_builtins(seen, enc_hook=as_text)
         except StaleError:
@@ -628,9 +586,9 @@ class Session:
         made_record: Callable[[Any, LabTexts, Words], Struct],
     ) -> dict[str, Any]:
         """The result of work on a lab's texts in a separate process, as a record for the page."""
-        tab, number = f"{order.text('tab')} lab", order.number("number")
-        texts = LabTexts(order.scene(), order.long_text("rules"), stem_of(order.text("name")))
-        words = spoken_in(language_in(order))
+        tab, number = f"{order.tab} lab", order.number
+        texts = LabTexts(order.text, order.rules, stem_of(order.name))
+        words = spoken_in(order.language)
         self.arrived(tab, number)
         try:
             found = beside(work, texts, lambda: self.still_wanted(tab, number))
@@ -644,9 +602,9 @@ class Session:
 
     def student(self, order: PageRequest) -> dict[str, Any]:
         """The sheets of one student, or why they cannot be drawn."""
-        text, name = order.scene(), with_ending(order.text("name"))
-        language, view = language_in(order), order.choice("view", VIEWS)
-        wanted = WantedSheets(text, name, order.settings(), language, view, ("svg",))
+        text, name = order.text, with_ending(order.name)
+        language, view = order.language, order.view
+        wanted = WantedSheets(text, name, order.settings, language, view, ("svg",))
 
         def drawn() -> dict[str, Any]:
             with self.drawing():
@@ -657,9 +615,9 @@ class Session:
 
     def motion(self, order: PageRequest) -> dict[str, Any]:
         """The address of a page of the motion: with curves, step by step, or of all sheets."""
-        text, stem = order.scene(), stem_of(order.text("name"))
-        language, kind = language_in(order), order.choice("page", MOVING)
-        settings, driver = order.settings(), order.number("driver")
+        text, stem = order.text, stem_of(order.name)
+        language, kind = order.language, order.page
+        settings, driver = order.settings, order.driver
         drivers: list[str] = []
 
         def made() -> dict[str, Any]:
@@ -679,28 +637,29 @@ class Session:
 
     def begin(self, order: PageRequest) -> dict[str, Any]:
         """A first lab.toml for any scene, or why there can be none."""
-        text, stem = order.scene(), stem_of(order.text("name"))
+        text, stem = order.text, stem_of(order.name)
 
         def made() -> dict[str, Any]:
             return {"rules": rules_for(Mechanism(read_text(text, stem)))}
 
-        return or_problems(made, text, language_in(order), rules="")
+        return or_problems(made, text, order.language, rules="")
 
     def write(self, order: PageRequest) -> dict[str, Any]:
         """The edits that put the values of the sliders into a text, or why there are none."""
-        text, settings = order.scene(), order.settings()
+        text, settings = order.text, order.settings
 
         def made() -> dict[str, Any]:
             return {"edits": to_builtins(edits(text, settings), enc_hook=as_text)}
 
-        return or_problems(made, text, language_in(order), edits=[])
+        return or_problems(made, text, order.language, edits=[])
 
     def picture(self, order: PageRequest) -> dict[str, Any]:
         """The sketch of a scene in the gallery; none for an unreadable scene."""
-        kind = order.choice("kind", PICTURED)
+        if order.kind not in PICTURED:
+            raise PageRequestError("kind")
         try:
             with self.drawing():
-                opened = self.open(order.text("name"), kind)
+                opened = self.open(order.name, order.kind)
                 seen = sketch(opened.text, stem_of(opened.name), {})
         except GraphkinError:
             return {"sketch": None}
@@ -708,19 +667,12 @@ class Session:
 
     def build(self, order: PageRequest) -> dict[str, Any]:
         """The text after an action of building, or why the action is impossible."""
-        of, places = order.names("of"), order.places()
-        act = Act(
-            order.choice("kind", tuple(KINDS)),
-            of,
-            order.place("at"),
-            places,
-            order.text("words"),
-            order.place("speed").real,
-            order.flag("exact"),
-        )
-        if act.kind != "pivot" and not of:
-            raise PageRequestError("of")
-        text = order.scene()
+        if order.kind not in KINDS or (order.kind != "pivot" and not order.of):
+            raise PageRequestError("kind")
+        places = {name: complex(*at) for name, at in order.places.items()}
+        at, speed = complex(*order.at), order.speed[0]
+        act = Act(order.kind, order.of, at, places, order.words, speed, order.exact)
+        text = order.text
 
         def done() -> dict[str, Any]:
             with self.drawing():
@@ -728,32 +680,34 @@ class Session:
             stand = {name: [at.real, at.imag] for name, at in after.places.items()}
             return {"text": after.text, "places": stand}
 
-        return or_problems(done, text, language_in(order), text=text)
+        return or_problems(done, text, order.language, text=text)
 
     def save(self, order: PageRequest) -> dict[str, Any]:
         """Save the text of a scene, whatever its mistakes."""
-        name, mark, replace = order.text("name"), order.text("mark"), order.flag("replace")
-        text, whole = order.scene(), with_ending(name)
-        written = order.long_text("rules")
-        rules = OwnRules(written, order.text("rules_mark")) if written else None
+        name, mark, replace = order.name, order.mark, order.replace
+        text, whole = order.text, with_ending(name)
+        written = order.rules
+        rules = OwnRules(written, order.rules_mark) if written else None
 
         def saved() -> Saved:
             with self.writing:
                 return save_scene(self.folder, whole, text, mark, replace=replace, rules=rules)
 
-        return saving(saved, text, language_in(order))
+        return saving(saved, text, order.language)
 
     def sheets(self, order: PageRequest) -> dict[str, Any]:
         """Draw and save the sheets of a text."""
+        if not order.formats:
+            raise PageRequestError("formats")
         wanted = WantedSheets(
-            order.scene(),
-            with_ending(order.text("name")),
-            order.settings(),
-            language_in(order),
-            order.choice("view", VIEWS),
-            order.choices("formats", FORMATS),
+            order.text,
+            with_ending(order.name),
+            order.settings,
+            order.language,
+            order.view,
+            [each for each in FORMATS if each in order.formats],
         )
-        replace = order.flag("replace")
+        replace = order.replace
 
         def saved() -> Saved:
             with self.drawing():
@@ -761,7 +715,7 @@ class Session:
             with self.writing:
                 return save_files(self.folder, files, replace=replace)
 
-        return saving(saved, wanted.text, order.choice("page_language", LANGUAGES))
+        return saving(saved, wanted.text, order.page_language)
 
 
 def saving(work: Callable[[], Saved], text: str, language: str) -> dict[str, Any]:

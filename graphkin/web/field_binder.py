@@ -19,7 +19,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from graphkin.construction.tape.tape_outputs import NOWHERE, TapeOutputs
+from graphkin.construction.tape.emitted import NOWHERE, TapeOutputs
 from graphkin.drawing.field import XY, Field, Rect
 from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Polyline, Text, style_class
 from graphkin.drawing.richtext import extent

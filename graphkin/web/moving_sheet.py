@@ -16,7 +16,7 @@ from graphkin.construction.core.drawn_scene import ENDLESS, NOISE, Drawing
 from graphkin.construction.core.layout import BEYOND, FAR, SWEEP, joined_points
 from graphkin.construction.core.program import Part
 from graphkin.construction.core.run import Trace
-from graphkin.construction.tape.tape_outputs import TapeOutputs
+from graphkin.construction.tape.emitted import TapeOutputs
 from graphkin.numbers.arithmetic import larger, np, pick, smaller
 from graphkin.numbers.plane import Circle, Ratio, dot
 

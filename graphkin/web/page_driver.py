@@ -13,8 +13,8 @@ from graphkin.construction.core.given_data import parameter_symbol, quantities, 
 from graphkin.construction.core.naming import angle_symbol
 from graphkin.construction.core.program import Program
 from graphkin.construction.links.rolled_turn import counted_link
+from graphkin.construction.tape.emitted import runner
 from graphkin.construction.tape.graph import Graph
-from graphkin.construction.tape.tape_outputs import runner
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import COORDINATES, TURN, What, stated_motion

@@ -22,8 +22,8 @@ from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import closer_of
 from graphkin.construction.higher_class.trial_rates import followed_rates
 from graphkin.construction.links.rolled_turn import counted_link
+from graphkin.construction.tape.emitted import TapeOutputs
 from graphkin.construction.tape.graph import Graph
-from graphkin.construction.tape.tape_outputs import TapeOutputs
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
 from graphkin.motion.driving import TURN

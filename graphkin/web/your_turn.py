@@ -35,8 +35,12 @@ from graphkin.construction.forces.polygon import PolygonSide
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.plan import TurningOfLink
 from graphkin.construction.registry import PALETTE, SAID_FIRST
-from graphkin.construction.velocity.relative_motion import AboutPivot, AlongGuide
-from graphkin.construction.velocity.turned_vectors import LaidOffByRate, TurnedVelocity
+from graphkin.construction.velocity.relative_motion import (
+    AboutPivot,
+    AlongGuide,
+    LaidOffByRate,
+    TurnedVelocity,
+)
 from graphkin.drawing.field import Field
 from graphkin.drawing.symbol_markup import symbol, tag_words
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross

@@ -11,8 +11,7 @@ import pytest
 
 from graphkin.construction.core.given_data import given
 from graphkin.construction.core.solution import Verdict
-from graphkin.construction.drivers.driver_relations import of_scales
-from graphkin.construction.rate_relations import of_gears
+from graphkin.construction.rate_relations import of_gears, of_scales
 from graphkin.construction.result_tables import vector_rows
 from graphkin.documents.calculation import (
     BOTTOM,

@@ -14,7 +14,7 @@ from graphkin.documents.positions import positions_of
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import LineMark, Page, Text
 from graphkin.mechanism import load
-from graphkin.motion.transmission import all_extremes
+from graphkin.motion.extremes import all_extremes
 from graphkin.text import LANGUAGES, words
 from tests.chosen import FOLDER
 

@@ -14,7 +14,7 @@ from graphkin.construction.core.given_data import given
 from graphkin.construction.core.layout import lay_out
 from graphkin.construction.core.naming import TINY, angle_symbol
 from graphkin.construction.core.program import Plane
-from graphkin.construction.drivers.driver_relations import drawn_bars, laid_bars
+from graphkin.construction.rate_relations import drawn_bars, laid_bars
 from graphkin.construction.result_tables import slide_rows, vectors
 from graphkin.documents.relations import dimensioned_bars, ends_on, relations
 from graphkin.documents.sentences import sentences

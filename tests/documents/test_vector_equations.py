@@ -9,7 +9,7 @@ from graphkin.construction.core.kind import construction
 from graphkin.construction.core.naming import driver_index
 from graphkin.construction.core.relation import Term, VectorEquation
 from graphkin.construction.drivers.driven_slide import DrivenSlide
-from graphkin.construction.rolling.rolling_normal import RollingNormal
+from graphkin.construction.rolling.wheel_images import RollingNormal
 from graphkin.documents.calculation import calculation
 from graphkin.documents.relations import of_equations, relations
 from graphkin.drawing.marks import LineMark, Text

@@ -13,8 +13,8 @@ import pytest
 from click.testing import CliRunner
 
 from graphkin.cli.main import app
-from graphkin.importing.figure import Completion
 from graphkin.importing.formats import imported, text_of
+from graphkin.importing.record import Completion
 from graphkin.importing.scene_text import scene_text
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text

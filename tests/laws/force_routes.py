@@ -9,10 +9,10 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.kind import constructions
 from graphkin.construction.core.run import Trace
+from graphkin.construction.core.solution import ForceSolution
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.loads import link_pair
 from graphkin.construction.forces.polygon import ClosedByLines, ClosingReaction
-from graphkin.construction.reactions import ForceSolution
 from graphkin.documents.force_fields import traced
 from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism, gathered

@@ -8,8 +8,8 @@ import random
 import numpy as np
 import pytest
 
+from graphkin.construction.core.solution import ForceSolution
 from graphkin.construction.forces.force_plan import undrawn
-from graphkin.construction.reactions import ForceSolution
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from graphkin.construction.reactions import ForceSolution
+from graphkin.construction.core.solution import ForceSolution
 from graphkin.mechanism import Mechanism
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text

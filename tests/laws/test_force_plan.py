@@ -13,10 +13,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphkin.construction.core.kind import constructions
+from graphkin.construction.core.solution import by_name
 from graphkin.construction.forces.force_plan import undrawn
 from graphkin.construction.forces.lever import LeverBalance
 from graphkin.construction.forces.loads import AppliedForce, InertiaForce
-from graphkin.construction.reactions import by_name
 from graphkin.documents.force_fields import traced
 from graphkin.loops.equilibrium import by_equations, equilibrium
 from graphkin.mechanism import Mechanism

@@ -7,7 +7,7 @@ import random
 
 import pytest
 
-from graphkin.construction.reactions import by_name
+from graphkin.construction.core.solution import by_name
 from graphkin.text.errors import SceneError, StructureError
 from tests.mechanisms import mechanism_of
 from tests.scene_files import scene_text

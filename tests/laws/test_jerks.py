@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from graphkin.loops import differences
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
-from graphkin.motion.transmission import all_extremes
+from graphkin.motion.extremes import all_extremes
 from graphkin.numbers.kinds import decimal_kind
 from graphkin.scene.quantity import exact
 from graphkin.scene.read_scene import read_text

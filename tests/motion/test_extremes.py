@@ -12,8 +12,13 @@ import pytest
 
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
-from graphkin.motion.extremes import Extremes, asked_measures, extremes
-from graphkin.motion.transmission import all_extremes, ratio_measures
+from graphkin.motion.extremes import (
+    Extremes,
+    all_extremes,
+    asked_measures,
+    extremes,
+    ratio_measures,
+)
 from graphkin.scene.read_scene import read_text
 from tests.scene_files import FOLDER
 

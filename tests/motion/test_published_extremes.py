@@ -12,9 +12,8 @@ import pytest
 
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
-from graphkin.motion.extremes import Extremes
+from graphkin.motion.extremes import Extremes, all_extremes
 from graphkin.motion.follower_limits import followers
-from graphkin.motion.transmission import all_extremes
 from graphkin.scene.read_scene import read_text
 from tests.motion.linkages import four_bar, slider_crank
 from tests.scene_files import scene_text

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from graphkin.construction.tape.tape_outputs import runner
+from graphkin.construction.tape.emitted import runner
 from graphkin.diagnosis.ranges import closing
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import Cycle, cycle

@@ -60,8 +60,8 @@ MANY |= {
 }
 MANY["line_force.slide_pressure"] = ("pprppr", (1, 1, 3))
 MANY["line_force.line_force"] = ("ppr", (1,))
-MANY["tooth_force.tooth_force"] = ("ppr", (1, 0.36))
-MANY["belt_force.strand_force"] = ("ppr", (1, 1.0, 1.0))
+MANY["line_force.tooth_force"] = ("ppr", (1, 0.36))
+MANY["line_force.strand_force"] = ("ppr", (1, 1.0, 1.0))
 """What steps take any number of, and what these are told; two points where nothing is said."""
 
 

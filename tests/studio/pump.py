@@ -14,7 +14,7 @@ from graphkin.studio.folder import Folder
 from graphkin.studio.look import Sight, look
 from graphkin.studio.panels import Memory
 from graphkin.studio.server import Served
-from graphkin.studio.session import PageRequest, Session
+from graphkin.studio.session import PageRequest, Session, requested
 
 PUMP = (scene_files.shelf() / "pump" / "scene.toml").read_text(encoding="utf-8")
 
@@ -43,7 +43,8 @@ def svgs(found: dict[str, Any]) -> dict[str, str]:
 
 def ordered(**fields: Any) -> PageRequest:
     """A request of the page."""
-    return PageRequest(json.dumps({"text": PUMP, "language": "en", "tab": "a", **fields}).encode())
+    order = {"text": PUMP, "language": "en", "tab": "a", **fields}
+    return requested(json.dumps(order).encode(), PageRequest)
 
 
 def desk_in(place: Any) -> Session:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 
-from graphkin.construction.reactions import by_name
+from graphkin.construction.core.solution import by_name
 from tests.textbook.book import DRAWN, Held, exactly, mechanism, within
 
 ROUNDED = 0.003

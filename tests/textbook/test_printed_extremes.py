@@ -14,9 +14,8 @@ from msgspec.structs import replace
 
 from graphkin.mechanism import Mechanism
 from graphkin.motion.cycle import cycle
-from graphkin.motion.extremes import Extremes
+from graphkin.motion.extremes import Extremes, all_extremes
 from graphkin.motion.follower_limits import Follower, followers
-from graphkin.motion.transmission import all_extremes
 from graphkin.scene.model import Ask
 from tests.motion.linkages import slider_crank
 from tests.scene_files import scene_text

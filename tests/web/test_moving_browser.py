@@ -9,9 +9,8 @@ from typing import Any
 
 import pytest
 
-from graphkin.construction.tape.emitted import MATH, script_source
+from graphkin.construction.tape.emitted import MATH, runner, script_source
 from graphkin.construction.tape.graph import Graph
-from graphkin.construction.tape.tape_outputs import runner
 from graphkin.drawing.marks import LineMark
 from tests.web.test_moving import LIMIT, fields, page_of
 from tests.web.written import ran, read, signed

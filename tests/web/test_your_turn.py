@@ -10,7 +10,7 @@ import pytest
 
 from graphkin.construction.core.program import SPEEDS, Plane, Program
 from graphkin.construction.registry import PALETTE
-from graphkin.construction.velocity.turned_vectors import LaidOffByRate
+from graphkin.construction.velocity.relative_motion import LaidOffByRate
 from graphkin.mechanism import load
 from graphkin.numbers.plane import Circle, Line, Ratio
 from graphkin.text import LANGUAGES, words

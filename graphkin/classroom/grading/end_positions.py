@@ -29,8 +29,7 @@ from graphkin.construction.core.program import Plane, Program, Target
 from graphkin.construction.core.quantities import STROKE, SWING, TIME_RATIO
 from graphkin.drawing.scale import Scales
 from graphkin.mechanism import Mechanism
-from graphkin.motion.follower_limits import swinging_line
-from graphkin.motion.travel import Travel, travels
+from graphkin.motion.follower_limits import Travel, swinging_line, travels
 from graphkin.numbers.arithmetic import np
 from graphkin.text.errors import GraphkinError
 

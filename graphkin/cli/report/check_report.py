@@ -24,7 +24,6 @@ from graphkin.construction.compile import write
 from graphkin.construction.core.branches import translated
 from graphkin.construction.core.cam_profiles import CamProfile, profiles_of
 from graphkin.construction.core.crossings import crossings
-from graphkin.construction.core.drawn_scene import METRES
 from graphkin.construction.core.run import Trace
 from graphkin.construction.core.solution import gathered
 from graphkin.construction.links.rolled_turn import counted_link
@@ -34,7 +33,7 @@ from graphkin.loops.assemble import true_mobility
 from graphkin.mechanism import Mechanism
 from graphkin.scene.house import PLAIN, House
 from graphkin.scene.model import FRAME, Cam, Driver, Scene, joined_words, link_words
-from graphkin.scene.quantity import LENGTHS, SI, exact
+from graphkin.scene.quantity import LENGTHS, METRES, SI, exact
 from graphkin.structure.decomposition import decompose
 from graphkin.structure.driver_count import count, driver_problem
 from graphkin.structure.grashof import FourBar, Loop, SliderCrank, single_loops
@@ -424,8 +423,8 @@ class Checking:
             return []
         from graphkin.cli.report.cycle_report import length_words
         from graphkin.construction.core.quantities import BY_TARGET
+        from graphkin.motion.follower_limits import travels
         from graphkin.motion.sweep import sweep_of
-        from graphkin.motion.travel import travels
 
         sweep, lines = sweep_of(self.mechanism.scene), list[str]()
         for (quantity, name), found in travels(self.mechanism).items():

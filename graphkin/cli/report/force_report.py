@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from graphkin.cli.report.solution_record import Record, pair, real
-from graphkin.construction.reactions import ForceSolution, PairReaction, by_name
+from graphkin.construction.core.solution import ForceSolution, PairReaction, by_name
 from graphkin.loops.equilibrium import ForceVerdict
 from graphkin.scene.forces import Forces
 from graphkin.scene.model import FRAME

@@ -16,9 +16,9 @@ from math import degrees
 from typing import Any, ClassVar
 
 from graphkin.construction.core.bases import Base
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.kind import (
+    Canvas,
     Construction,
     SaidInParts,
     Sentence,

@@ -9,10 +9,10 @@ from typing import Any, ClassVar, Protocol
 
 from msgspec import Struct
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import (
     ByHand,
+    Canvas,
     Construction,
     EndsComponent,
     Wording,

@@ -6,7 +6,7 @@ from cmath import phase, rect
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import ceil, floor, pi
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from msgspec import Struct, field
 
@@ -30,11 +30,6 @@ from graphkin.numbers.plane import Circle, Line, Ratio, Vector, cross
 from graphkin.scene.model import FRAME, Scene, Slide
 from graphkin.text import Markup, Words
 
-if TYPE_CHECKING:
-    from graphkin.drawing.field import Field
-
-METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "in": 0.0254, "ft": 0.3048}
-"""Metres in each unit in which a scene may write lengths."""
 ENDLESS = 1e9
 """A centre this many times the mechanism's size away counts as at infinity."""
 NOISE = 1e-9

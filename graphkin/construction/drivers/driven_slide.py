@@ -21,8 +21,12 @@ from graphkin.construction.core.program import OwnStep
 from graphkin.construction.core.quantities import EPSILON, RATES
 from graphkin.construction.core.relation import Relation, answer
 from graphkin.construction.core.vocabulary import action
-from graphkin.construction.velocity.relative_motion import AlongGuide
-from graphkin.construction.velocity.turned_vectors import LaidOffByRate, falls_key, length_drawn
+from graphkin.construction.velocity.relative_motion import (
+    AlongGuide,
+    LaidOffByRate,
+    falls_key,
+    length_drawn,
+)
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from math import degrees, pi
 from typing import NamedTuple
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.naming import angle_symbol, driver_index
@@ -49,90 +53,23 @@ def draw_drivers(
 
     With ``defined``, draw its position with the letter alone.
     """
-    used: list[tuple[str, int]] = []
+    used: Counter[str] = Counter()
     for driver in drawing.scene.drivers:
+        symbol = DriverSymbol(board, drawing, field, driver, defined)
         if driver.kind == "turn":
             start = pivot_of(drawing, driver)
             if start in drawing.positions:
-                nth = sum(1 for name, _ in used if name == start)
-                used.append((start, nth))
-                draw_crank(board, drawing, field, driver, ANGLE + WIDER * nth, defined)
+                symbol.draw_crank(ANGLE + WIDER * used[start])
+                used[start] += 1
         else:
-            sheets = drawing, drawing.choosing
-            ways = (driven_ways(each, same(driver, drawing, each)) for each in sheets)
+            ways = (driven_ways(each.drawing, each.driver) for each in (symbol, symbol.choosing))
             for way, chosen in zip(*ways, strict=True):
-                room = dimensioned(drawing, field, chosen)
-                draw_way(board, drawing, field, driver, way, room, defined)
-
-
-def same(driver: Driver, drawing: Drawing, other: Drawing) -> Driver:
-    """The driver of another sheet of the same scene."""
-    return other.scene.drivers[drawing.scene.drivers.index(driver)]
-
-
-def draw_crank(
-    board: FieldContent,
-    drawing: Drawing,
-    field: Field,
-    driver: Driver,
-    radius: float,
-    defined: bool,
-) -> None:
-    """Draw the angle of a crank from the axis of the link it turns against, and its sense."""
-    start = pivot_of(drawing, driver)
-    centre = field(drawing.positions[start])
-    base = drawing.standing.axis(driver.against)
-    if base is None:
-        return
-    swept = drawn_angle(drawing, driver)
-    zero, end = phase(base) * DEGREE, crank_end(drawing, driver)
-    ray, shows = across(centre, field.way(base), radius + 6, 0), Shown("coordinate", driver.link)
-    axis = LineMark(*centre, *ray, "centre-line", f"x {driver.link}", shows=shows)
-    board.marks += within([axis], field.rect)
-    if driver.of is None and not lies_along(drawing, driver.link, end):
-        tip = across(centre, field.way(base * turn_by(swept / DEGREE)), radius + 6, 0)
-        line = LineMark(*centre, *tip, "centre-line", f"axis {driver.link}", shows=shows)
-        board.marks.append(line)
-    name = "phi" if len(drawing.scene.drivers) == 1 else f"phi {driver.link}"
-    if abs(swept) > 0.5:
-        board.marks.append(Arc(*centre, radius, zero, end, "angle", name, shows=shows))
-    half = field.way(base * turn_by(swept / 2 / DEGREE))
-    middle = across(centre, half, radius, 0)
-    text = coordinate(drawing, driver, defined)
-    board.labels.append(Label(text, "", middle, 2.5, name, away=half, shows=shows))
-    if not defined:
-        draw_sense(board, drawing, field, end, driver, radius - 3)
-
-
-def coordinate(drawing: Drawing, driver: Driver, defined: bool) -> str:
-    """The letter of a driver's position, with its value unless it is only defined."""
-    letter = angle_symbol(drawing.scene, driver)
-    if defined:
-        return letter
-    given = drawing.scene, drawing.words, driver.position
-    angle = in_degrees(*given) if driver.kind == "turn" else ""
-    return f"{letter} = {angle or quantity_text(*given)}"
-
-
-def crank_end(drawing: Drawing, driver: Driver) -> Real:
-    """The bearing of a crank in degrees."""
-    base = drawing.standing.axis(driver.against)
-    assert base is not None
-    return phase(base) * DEGREE + drawn_angle(drawing, driver)
+                symbol.draw_way(way, chosen)
 
 
 def pivot_of(drawing: Drawing, driver: Driver) -> str:
     """The point about which a driver's angle is drawn."""
     return (driver.of or drawing.scene.links[driver.link].points)[0]
-
-
-def lies_along(drawing: Drawing, link: str, angle: float) -> bool:
-    """Whether the link's second point is on the ray at an angle (degrees) from its first."""
-    places = [drawing.positions[p] for p in drawing.scene.links[link].points[:2]]
-    if len(places) < 2 or places[0] == places[1]:
-        return False
-    turn = phase(places[1] - places[0]) * DEGREE - angle
-    return bool(abs((turn + 180) % 360 - 180) < 0.01)
 
 
 def drawn_angle(drawing: Drawing, driver: Driver) -> Real:
@@ -145,72 +82,175 @@ def drawn_angle(drawing: Drawing, driver: Driver) -> Real:
     return written if abs(written) < TURN else turn % TURN
 
 
-def draw_sense(
-    board: FieldContent, drawing: Drawing, field: Field, end: Real, driver: Driver, radius: float
-) -> None:
-    """Draw a turning arrow beyond the crank, in the sense of its angular velocity."""
-    centre = field(drawing.positions[pivot_of(drawing, driver)])
-    omega = speed_of(drawing, driver)
-    if omega == 0:
-        return
-    sign = pick(omega > 0, 1, -1)
-    (near, far), turns = SENSE, dict(cuts(drawing, field, driver, end, sign))
-    chosen = drawing.choosing
-    place = end_beyond(chosen, field, same(driver, drawing, chosen))
-    start, long = turns[place] + near if place else near, far - near
-    tip = end + sign * (start + long)
-    way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
-    shows, end_of_arc = Shown("rate", driver.link), (tip, -sign * long)
-    board.marks += showing(shows, turned_arrow(centre, radius, way, end_of_arc, "sense"))
-    at = across(centre, half, radius, 0)
-    text = f"*ω*_{{{driver_index(driver)}}}"
-    board.labels.append(Label(text, "", at, 2.5, f"omega {driver.link}", shows=shows))
+class DriverSymbol(Struct, frozen=True):
+    """A driver on the mechanism; only the letter of its position, if that is only ``defined``."""
 
+    board: FieldContent
+    drawing: Drawing
+    field: Field
+    driver: Driver
+    defined: bool
 
-def speed_of(drawing: Drawing, driver: Driver) -> Real:
-    """The driver's speed, in rad/s or m/s; its sign is the sense drawn."""
-    for each, drive in zip(drawing.scene.drivers, drawing.trace.program.drives, strict=True):
-        if each is driver and drive.speed in drawing.trace.values:
-            return drawing.trace.values[drive.speed]
-    return float(driver.speed.si(drawing.scene.values))
+    @property
+    def choosing(self) -> DriverSymbol:
+        """The same driver on the sheet whose position decides the places of marks."""
+        chosen = self.drawing.choosing
+        driver = chosen.scene.drivers[self.drawing.scene.drivers.index(self.driver)]
+        return replace(self, drawing=chosen, driver=driver)
 
+    @property
+    def coordinate(self) -> str:
+        """The letter of its position, with its value unless it is only defined."""
+        scene, driver = self.drawing.scene, self.driver
+        letter = angle_symbol(scene, driver)
+        if self.defined:
+            return letter
+        given = scene, self.drawing.words, driver.position
+        angle = in_degrees(*given) if driver.kind == "turn" else ""
+        return f"{letter} = {angle or quantity_text(*given)}"
 
-def end_beyond(drawing: Drawing, field: Field, driver: Driver) -> str:
-    """The name of the line beyond which a turning arrow is clear; empty beyond the crank itself."""
-    (near, far), end = SENSE, crank_end(drawing, driver)
-    sign = 1 if speed_of(drawing, driver) > 0 else -1
-    found = list(cuts(drawing, field, driver, end, sign))
-    turns = [(0.0, ""), *sorted((turn, name) for name, turn in found)]
+    @property
+    def speed(self) -> Real:
+        """Its speed, in rad/s or m/s; its sign is the sense drawn."""
+        scene, trace = self.drawing.scene, self.drawing.trace
+        for each, drive in zip(scene.drivers, trace.program.drives, strict=True):
+            if each is self.driver and drive.speed in trace.values:
+                return trace.values[drive.speed]
+        return float(self.driver.speed.si(scene.values))
 
-    def is_free(start: float) -> bool:
-        return not any(-AROUND < cut - start < far - near + AROUND for _, cut in found)
+    # --- driven by turning -----------------------------------------------------------------------
 
-    places = ((turn + near, name) for turn, name in turns)
-    return next((name for at, name in places if at + far < 360 and is_free(at)), "")
+    def draw_crank(self, radius: float) -> None:
+        """Draw the angle of a crank from the axis of the link it turns against, and its sense."""
+        board, drawing, field, driver = self.board, self.drawing, self.field, self.driver
+        centre = field(drawing.positions[pivot_of(drawing, driver)])
+        base = drawing.standing.axis(driver.against)
+        if base is None:
+            return
+        swept, zero, end = drawn_angle(drawing, driver), phase(base) * DEGREE, self.bearing
+        ray, shows = (
+            across(centre, field.way(base), radius + 6, 0),
+            Shown("coordinate", driver.link),
+        )
+        axis = LineMark(*centre, *ray, "centre-line", f"x {driver.link}", shows=shows)
+        board.marks += within([axis], field.rect)
+        if driver.of is None and not self.lies_along(end):
+            tip = across(centre, field.way(base * turn_by(swept / DEGREE)), radius + 6, 0)
+            line = LineMark(*centre, *tip, "centre-line", f"axis {driver.link}", shows=shows)
+            board.marks.append(line)
+        name = "phi" if len(drawing.scene.drivers) == 1 else f"phi {driver.link}"
+        if abs(swept) > 0.5:
+            board.marks.append(Arc(*centre, radius, zero, end, "angle", name, shows=shows))
+        half = field.way(base * turn_by(swept / 2 / DEGREE))
+        middle = across(centre, half, radius, 0)
+        label = Label(self.coordinate, "", middle, 2.5, name, away=half, shows=shows)
+        board.labels.append(label)
+        if not self.defined:
+            self.draw_sense(end, radius - 3)
 
+    @property
+    def bearing(self) -> Real:
+        """The bearing of a crank in degrees."""
+        base = self.drawing.standing.axis(self.driver.against)
+        assert base is not None
+        return phase(base) * DEGREE + drawn_angle(self.drawing, self.driver)
 
-def cuts(
-    drawing: Drawing, field: Field, driver: Driver, end: Real, sign: Real
-) -> Iterator[tuple[str, Real]]:
-    """The names of the lines that could cut the arrow, and their angles beyond the crank.
+    def lies_along(self, angle: float) -> bool:
+        """Whether the link's second point is on the ray at an angle (degrees) from its first."""
+        points = self.drawing.scene.links[self.driver.link].points[:2]
+        places = [self.drawing.positions[p] for p in points]
+        if len(places) < 2 or places[0] == places[1]:
+            return False
+        turn = phase(places[1] - places[0]) * DEGREE - angle
+        return bool(abs((turn + 180) % 360 - 180) < 0.01)
 
-    Angles are in degrees in the crank's sense. The lines are bars, the ground of the pivot, and the
-    velocity of a moving pivot.
-    """
-    here = pivot_of(drawing, driver)
-    links = (link for link in drawing.scene.links.values() if here in link.points)
-    others = (point for link in links for point in link.points if link.name != driver.link)
-    ways = {point: drawing.positions[point] - drawing.positions[here] for point in others}
-    velocity = drawing.trace.value("velocity", here)
-    if velocity is not None and not abs(velocity) < NOISE * drawing.largest:
-        ways[f"v {here}"] = velocity
-    ground = ground_ways(drawing, field.mm).get(here)
-    if ground is not None:
-        for side in (-1, 0, 1):
-            ways[f"ground {side}"] = ground * turn_by(side * GROUND / DEGREE)
-    for name, way in ways.items():
-        if abs(way) > 0:
-            yield name, sign * (phase(way) * DEGREE - end) % 360
+    def draw_sense(self, end: Real, radius: float) -> None:
+        """Draw a turning arrow beyond the crank, in the sense of its angular velocity."""
+        drawing, field, driver, omega = self.drawing, self.field, self.driver, self.speed
+        if omega == 0:
+            return
+        centre = field(drawing.positions[pivot_of(drawing, driver)])
+        sign = pick(omega > 0, 1, -1)
+        (near, far), turns = SENSE, dict(self.cuts(end, sign))
+        place = self.choosing.end_beyond()
+        start, long = turns[place] + near if place else near, far - near
+        tip = end + sign * (start + long)
+        way, half = (field.way(turn_by(at / DEGREE)) for at in (tip, tip - sign * long / 2))
+        shows, end_of_arc = Shown("rate", driver.link), (tip, -sign * long)
+        self.board.marks += showing(shows, turned_arrow(centre, radius, way, end_of_arc, "sense"))
+        at = across(centre, half, radius, 0)
+        text, name = f"*ω*_{{{driver_index(driver)}}}", f"omega {driver.link}"
+        self.board.labels.append(Label(text, "", at, 2.5, name, shows=shows))
+
+    def end_beyond(self) -> str:
+        """The line beyond which a turning arrow is clear; empty beyond the crank itself."""
+        (near, far), end = SENSE, self.bearing
+        found = list(self.cuts(end, 1 if self.speed > 0 else -1))
+        turns = [(0.0, ""), *sorted((turn, name) for name, turn in found)]
+
+        def is_free(start: float) -> bool:
+            return not any(-AROUND < cut - start < far - near + AROUND for _, cut in found)
+
+        places = ((turn + near, name) for turn, name in turns)
+        return next((name for at, name in places if at + far < 360 and is_free(at)), "")
+
+    def cuts(self, end: Real, sign: Real) -> Iterator[tuple[str, Real]]:
+        """The names of the lines that could cut the arrow, and their angles beyond the crank.
+
+        Angles are in degrees in the crank's sense. The lines are bars, the ground of the pivot, and
+        the velocity of a moving pivot.
+        """
+        drawing, here = self.drawing, pivot_of(self.drawing, self.driver)
+        links = (link for link in drawing.scene.links.values() if here in link.points)
+        others = (p for link in links for p in link.points if link.name != self.driver.link)
+        ways = {point: drawing.positions[point] - drawing.positions[here] for point in others}
+        velocity = drawing.trace.value("velocity", here)
+        if velocity is not None and not abs(velocity) < NOISE * drawing.largest:
+            ways[f"v {here}"] = velocity
+        ground = ground_ways(drawing, self.field.mm).get(here)
+        if ground is not None:
+            for side in (-1, 0, 1):
+                ways[f"ground {side}"] = ground * turn_by(side * GROUND / DEGREE)
+        for name, way in ways.items():
+            if abs(way) > 0:
+                yield name, sign * (phase(way) * DEGREE - end) % 360
+
+    # --- driven along a guide or a track ---------------------------------------------------------
+
+    def draw_way(self, driven: DrivenWay, chosen: DrivenWay) -> None:
+        """Dimension a driven coordinate next to its line, and draw an arrow for its rate of change.
+
+        The side and whether a dimension fits are those of the way ``chosen``, on the sheet where
+        places are chosen.
+        """
+        board, field, link, way = (
+            self.board,
+            self.field,
+            self.driver.link,
+            self.field.way(driven.along),
+        )
+        aside = free_side(self.drawing.choosing, field, chosen.zero, chosen.here, chosen.along)
+        side = 1 if aside > 0 else -1
+        start, end = field(driven.zero), field(driven.here)
+        text, name, shows = self.coordinate, f"s {link}", Shown("coordinate", link)
+        if field.holds(chosen.zero, 1) and abs(chosen.here - chosen.zero) * field.mm >= LEAST:
+            low, high = across(start, way, 0, aside), across(end, way, 0, aside)
+            thin = [across(each, way, 0, aside + side * 1.5) for each in (start, end)]
+            lines = ((start, thin[0]), (end, thin[1]), (low, high))
+            board.marks += within(showing(shows, dimension(lines, name)), field.rect)
+            board.labels.append(Label(text, "", (low, high), 2.5, name, shows=shows))
+        else:
+            at = across(field(driven.drawn), way, 0, side * BLOCK[1] / 2)
+            away = across((0.0, 0.0), way, 0, side)
+            board.labels.append(Label(text, "", at, 2.5, name, away=away, shows=shows))
+        speed = self.speed
+        if speed != 0 and not self.defined:
+            ahead = pick(speed > 0, HALF, -HALF)
+            here, name, shows = field(driven.moved), f"speed {link}", Shown("rate", link)
+            tail, tip = (across(here, way, a, -side * BESIDE) for a in (-ahead, ahead))
+            board.marks += showing(shows, arrow(tail, tip, "sense", name))
+            text = f"*v*_{{{driver_index(self.driver)}}}"
+            board.labels.append(Label(text, "", (tail, tip), 2.5, name, shows=shows))
 
 
 def driven_slide(drawing: Drawing, driver: Driver) -> Slide | None:
@@ -251,51 +291,6 @@ def driven_ways(drawing: Drawing, driver: Driver) -> Iterator[DrivenWay]:
         mine = touch.disc.link == driver.link and touch.on == driver.against
         if mine and touch.zero is not None:
             yield DrivenWay(touch.zero, touch.at, touch.along, touch.at, touch.disc.centre)
-
-
-def dimensioned(drawing: Drawing, field: Field, way: DrivenWay) -> tuple[float, bool]:
-    """The free distance to the right of a driven way, and whether a dimension fits.
-
-    The distance is chosen on the sheet where places are chosen.
-    """
-    long = abs(way.here - way.zero) * field.mm >= LEAST
-    aside = free_side(drawing.choosing, field, way.zero, way.here, way.along)
-    return aside, field.holds(way.zero, 1) and bool(long)
-
-
-def draw_way(
-    board: FieldContent,
-    drawing: Drawing,
-    field: Field,
-    driver: Driver,
-    driven: DrivenWay,
-    chosen: tuple[float, bool],
-    defined: bool,
-) -> None:
-    """Dimension a driven coordinate next to its line, and draw an arrow for its rate of change."""
-    way, (aside, is_dimensioned) = field.way(driven.along), chosen
-    side = 1 if aside > 0 else -1
-    start, end = field(driven.zero), field(driven.here)
-    name, shows = f"s {driver.link}", Shown("coordinate", driver.link)
-    text = coordinate(drawing, driver, defined)
-    if is_dimensioned:
-        low, high = across(start, way, 0, aside), across(end, way, 0, aside)
-        thin = across(start, way, 0, aside + side * 1.5), across(end, way, 0, aside + side * 1.5)
-        lines = ((start, thin[0]), (end, thin[1]), (low, high))
-        board.marks += within(showing(shows, dimension(lines, name)), field.rect)
-        board.labels.append(Label(text, "", (low, high), 2.5, name, shows=shows))
-    else:
-        at = across(field(driven.drawn), way, 0, side * BLOCK[1] / 2)
-        away = across((0.0, 0.0), way, 0, side)
-        board.labels.append(Label(text, "", at, 2.5, name, away=away, shows=shows))
-    speed = speed_of(drawing, driver)
-    if speed != 0 and not defined:
-        ahead = pick(speed > 0, HALF, -HALF)
-        tail, tip = (across(field(driven.moved), way, a, -side * BESIDE) for a in (-ahead, ahead))
-        name, shows = f"speed {driver.link}", Shown("rate", driver.link)
-        board.marks += showing(shows, arrow(tail, tip, "sense", name))
-        text = f"*v*_{{{driver_index(driver)}}}"
-        board.labels.append(Label(text, "", (tail, tip), 2.5, name, shows=shows))
 
 
 def free_side(drawing: Drawing, field: Field, start: complex, end: complex, way: complex) -> float:

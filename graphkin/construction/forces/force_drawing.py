@@ -17,9 +17,14 @@ from graphkin.construction.core.program import Part, Plane, Step
 from graphkin.construction.core.quantities import RATE, MotionQuantity, OnPaper, in_mm
 from graphkin.construction.core.relation import Relation, answer, value_of
 from graphkin.construction.core.run import Trace
-from graphkin.construction.forces.belt_force import BeltStrand
 from graphkin.construction.forces.lever import LeverBalance, LeverForce
-from graphkin.construction.forces.line_force import LineForce, SlidePressure
+from graphkin.construction.forces.line_force import (
+    BeltStrand,
+    LineForce,
+    RackForce,
+    SlidePressure,
+    ToothForce,
+)
 from graphkin.construction.forces.loads import (
     ByTable,
     InertiaMoment,
@@ -37,7 +42,6 @@ from graphkin.construction.forces.polygon import (
     InPolygon,
     side_size,
 )
-from graphkin.construction.forces.tooth_force import RackForce, ToothForce
 from graphkin.drawing.field import Field
 from graphkin.drawing.scale import Extent, extent_of
 from graphkin.drawing.symbol_markup import symbol

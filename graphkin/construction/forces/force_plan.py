@@ -18,14 +18,19 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import DriverForce, PairForce, Part, Plane, Program
 from graphkin.construction.core.quantities import BALANCING_FORCE, BALANCING_MOMENT, PAIR_REACTION
 from graphkin.construction.core.vocabulary import along_bar
-from graphkin.construction.forces.belt_force import belt_strands
 from graphkin.construction.forces.lever import LeverPlan
 from graphkin.construction.forces.line_force import (
     along_line,
+    belt_strands,
     foot_on_line,
     in_order,
     meeting,
+    pitch_of,
+    pitch_on,
     pressure,
+    pressure_angle,
+    rack,
+    tooth,
 )
 from graphkin.construction.forces.loads import (
     STRANDS,
@@ -54,7 +59,6 @@ from graphkin.construction.forces.polygon import (
     normal_to_guide,
     side_between,
 )
-from graphkin.construction.forces.tooth_force import pitch_of, pitch_on, pressure_angle, rack, tooth
 from graphkin.scene.findings import natural
 from graphkin.scene.model import FRAME, Belt, Driver, Scene, Wheel
 from graphkin.structure.groups import (

@@ -10,9 +10,8 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 from typing import Any, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction
+from graphkin.construction.core.kind import Canvas, Construction
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen, letter
 from graphkin.construction.core.program import OwnStep, Part, Plane

@@ -15,9 +15,8 @@ from typing import Any, ClassVar, NamedTuple
 
 from msgspec import Struct
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, Slip
+from graphkin.construction.core.kind import Canvas, Construction, Slip
 from graphkin.construction.core.naming import sense
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane

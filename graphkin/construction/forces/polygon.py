@@ -10,9 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, Construction, Slip
+from graphkin.construction.core.kind import ByHand, Canvas, Construction, Slip
 from graphkin.construction.core.naming import TINY, way_of
 from graphkin.construction.core.palette import (
     PARALLEL,

@@ -11,10 +11,9 @@ from typing import Any, ClassVar
 from msgspec.structs import replace
 
 from graphkin.construction.core.branches import way_of
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ByHand, LaidLength, PlacesLink
+from graphkin.construction.core.kind import ByHand, Canvas, LaidLength, PlacesLink
 from graphkin.construction.core.naming import drawn_amount
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane, Step

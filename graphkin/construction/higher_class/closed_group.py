@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import ClosesGroup, LaidLength, PlacesLink
+from graphkin.construction.core.kind import Canvas, ClosesGroup, LaidLength, PlacesLink
 from graphkin.construction.core.naming import angle_symbol, axis_of, way_of
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import Driver

@@ -16,10 +16,9 @@ from abc import abstractmethod
 from collections.abc import Container, Mapping
 from typing import Any, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.component import component_ending_at, component_of, index_before
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, FindsImage, GivesRate, JoinsPoints
+from graphkin.construction.core.kind import Canvas, Construction, FindsImage, GivesRate, JoinsPoints
 from graphkin.construction.core.layout import BEYOND
 from graphkin.construction.core.naming import scale_of, way_of
 from graphkin.construction.core.palette import DIVIDE, JOIN, Move, two

@@ -24,9 +24,8 @@ from graphkin.construction.guides.guides import (
 from graphkin.construction.higher_class.closed_group import ClosedGroup
 from graphkin.construction.higher_class.closure_solver import Trying
 from graphkin.construction.higher_class.trial import Unknown
-from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.link_shapes import bar_length, local_place
-from graphkin.construction.links.plate_points import plate_points
+from graphkin.construction.links.plate_points import plate_points, turn_about
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.model import FRAME, Driver

@@ -12,9 +12,14 @@ from itertools import groupby
 
 from msgspec import Struct, field
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import AuxiliaryPlan, Sentence, auxiliary_plan, construction
+from graphkin.construction.core.kind import (
+    AuxiliaryPlan,
+    Canvas,
+    Sentence,
+    auxiliary_plan,
+    construction,
+)
 from graphkin.construction.core.naming import (
     NAUGHT,
     drawn_between,
@@ -41,7 +46,7 @@ from graphkin.construction.higher_class.divided_point import (
 from graphkin.construction.plan import VELOCITY, Plan
 from graphkin.construction.step_marks import point_parts, point_sentence
 from graphkin.construction.velocity.image_of_link import CrossedImage, ImageOfLink, TranslatedImage
-from graphkin.construction.velocity.turned_vectors import (
+from graphkin.construction.velocity.relative_motion import (
     LaidOffAboutPivot,
     LaidOffByRate,
     TurnedAcceleration,

@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.crossings import Determined, which_side
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Construction, lies_along
+from graphkin.construction.core.kind import Canvas, Construction, lies_along
 from graphkin.construction.core.naming import drawn_amount, nearest_side
 from graphkin.construction.core.palette import COMPASS, CUTS, Move, one_and_length
 from graphkin.construction.core.pen import Pen

@@ -19,10 +19,9 @@ from graphkin.construction.guides.guides import (
     turned_back,
     turned_with,
 )
-from graphkin.construction.links.driven_crank import turn_about
 from graphkin.construction.links.dyad_by_arcs import cut_line, meet_arcs
 from graphkin.construction.links.link_shapes import bar_length, local_place, place
-from graphkin.construction.links.plate_points import arc, plate_points
+from graphkin.construction.links.plate_points import arc, plate_points, turn_about
 from graphkin.numbers.plane import cross
 from graphkin.scene.model import FRAME, Apart, Link, Scene
 from graphkin.structure.groups import CamFollower, Crank, Driven, Dyad, Group, OnTwoPins, Tie

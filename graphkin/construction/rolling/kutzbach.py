@@ -16,10 +16,10 @@ from collections.abc import Iterator, Mapping
 from typing import ClassVar, NamedTuple
 
 from graphkin.construction.core.bases import contact_name
-from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import (
     ByHand,
+    Canvas,
     Construction,
     GivesRate,
     JoinsPoints,

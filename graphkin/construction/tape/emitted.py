@@ -6,12 +6,16 @@ number that is used more than once, has a short name.
 Tracing a program and writing its source takes some milliseconds, once for each request; compiling
 takes a second or more. So small batches run step by step. The choice depends only on the size of
 the batch, not on earlier runs; the results differ by rounding alone.
+
+A moving page computes the outputs of a graph at each position of the driver. The same graph gives
+their values at the scene's own position, so that they can be compared with what is drawn there.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cached_property
 from importlib.util import find_spec
 from typing import Any, Literal
@@ -21,62 +25,19 @@ from msgspec import Struct, field
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace, Values, is_array, run_batch, run_blocks
 from graphkin.construction.core.solution import with_least_margin
-from graphkin.construction.tape.graph import Graph, Node
-from graphkin.construction.tape.traced import TracedNumber, UntraceableError, parts_named, traced
+from graphkin.construction.tape.graph import OPERATIONS, Graph, Node
+from graphkin.construction.tape.traced import (
+    TracedNumber,
+    Truth,
+    UntraceableError,
+    entered,
+    parts_named,
+    traced,
+)
 from graphkin.numbers.arithmetic import batch_kind, np
 from graphkin.numbers.plane import Circle, Line, Ratio, Vector
 
-ARRAYS = {
-    "add": "add",
-    "sub": "subtract",
-    "mul": "multiply",
-    "min": "minimum",
-    "max": "maximum",
-    "over": "divide",
-    "neg": "negative",
-    "abs": "absolute",
-    "sqrt": "sqrt",
-    "round": "rint",
-    "floor": "floor",
-    "cos": "cos",
-    "sin": "sin",
-    "sin45": "sin",
-    "atan2": "arctan2",
-}
-"""The numpy function of an operation that fills an array of numbers."""
-TRUTHS = {
-    "less": "less",
-    "at_most": "less_equal",
-    "equal": "equal",
-    "both": "logical_and",
-    "either": "logical_or",
-    "not": "logical_not",
-}
-"""The numpy function of an operation that gives a condition."""
-LOOP = {
-    "add": "{} + {}",
-    "sub": "{} - {}",
-    "mul": "{} * {}",
-    "over": "1.0 / {}",
-    "min": "{0} if {0} <= {1} else {1}",
-    "max": "{1} if {0} <= {1} else {0}",
-    "neg": "-{}",
-    "abs": "abs({})",
-    "sqrt": "sqrt({})",
-    "round": "rint({})",
-    "floor": "floor({})",
-    "cos": "cos({})",
-    "sin": "sin({})",
-    "sin45": "sin45({})",
-    "atan2": "atan2({}, {})",
-    "less": "{} < {}",
-    "at_most": "{} <= {}",
-    "equal": "{} == {}",
-    "both": "{} & {}",
-    "either": "{} | {}",
-    "not": "not {}",
-    "choose": "{1} if {0} else {2}",
-}
+LOOP = {op: each.loop for op, each in OPERATIONS.items()}
 """The expression of an operation in a loop over single numbers."""
 CALLS = frozenset({"cos", "sin", "atan2"})
 """Operations that call a library for each number: a compiler cannot vectorize them."""
@@ -166,14 +127,14 @@ class ScratchArrays:
     def statement(self, number: int, node: Node) -> str:
         """The call that computes a node."""
         args = [self.name[arg] for arg in node.args]
-        if node.op in TRUTHS or node.op == "choose":
-            function, letter = (TRUTHS[node.op], "c") if node.op in TRUTHS else ("where", "w")
-            self.name[number] = f"{letter}{number}"
-            return f"{letter}{number} = {function}({', '.join(args)})"
+        own = OPERATIONS[node.op]
+        if own.decides:
+            self.name[number] = name = f"{'w' if node.op == 'choose' else 'c'}{number}"
+            return f"{name} = {own.array}({', '.join(args)})"
         self.name[number] = array = self.take(number)
         if node.op == "over":
             args.insert(0, self.constant("1.0"))
-        return f"{ARRAYS[node.op]}({', '.join(args)}, out={array})"
+        return f"{own.array}({', '.join(args)}, out={array})"
 
 
 # --- a loop over single numbers ------------------------------------------------------------------
@@ -400,33 +361,9 @@ def sin45(x: float) -> float:
     return x + x * (z * s)
 
 
-SIGNS = {
-    "add": "{}+{}",
-    "sub": "{}-{}",
-    "mul": "{}*{}",
-    "over": "1/{}",
-    "neg": "-{}",
-    "less": "{}<{}",
-    "at_most": "{}<={}",
-    "equal": "{}=={}",
-    "both": "{}&&{}",
-    "either": "{}||{}",
-    "not": "!{}",
-    "choose": "{}?{}:{}",
-}
+SIGNS = {op: each.sign for op, each in OPERATIONS.items() if each.sign}
 """Operations written with operators; each argument is a name, a number or in brackets."""
-JS_CALLS = {
-    "min": "min",
-    "max": "max",
-    "abs": "abs",
-    "sqrt": "sqrt",
-    "round": "round",
-    "floor": "floor",
-    "cos": "cos",
-    "sin": "sin",
-    "sin45": "sin",
-    "atan2": "atan2",
-}
+JS_CALLS = {op: each.call for op, each in OPERATIONS.items() if each.call}
 """Operations that are functions of JavaScript's Math."""
 MATH = "const {" + ",".join(sorted(set(JS_CALLS.values()))) + "}=Math;"
 """The line that declares those functions by name."""
@@ -434,8 +371,8 @@ DEEP = 40
 """Maximum nesting of operations: parsers have limits."""
 LONG = 6
 """Number of characters from which a repeated number gets a name."""
-BINDING = {"mul": 3, "over": 3, "add": 2, "sub": 2, "less": 1, "at_most": 1}
-"""Precedence of operators; an argument with higher precedence needs no brackets."""
+BRACKETED = 4
+"""Precedence of an operator whose arguments have brackets if they have any operator."""
 SIGNS_OF_NAMES = "abcdefghijklmnopqrstuvwz$_ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """What names begin with."""
 
@@ -504,7 +441,7 @@ class Writer:
         text, own = self.text[number], self.graph.nodes[number].op
         if not self.depth[number] or own not in SIGNS:
             return text
-        holds, wants = BINDING.get(own, 0), BINDING.get(op, 4)
+        holds, wants = OPERATIONS[own].binds, OPERATIONS[op].binds or BRACKETED
         return text if holds > wants or (holds == wants and not last) else f"({text})"
 
 
@@ -633,3 +570,103 @@ def emitted_for(program: Program, order: BatchRequest) -> Emitted | None:
     except UntraceableError:
         return None
     return Emitted(program, graph, trace.values, trace.margins)
+
+
+# --- the outputs of a moving page -----------------------------------------------------------------
+
+
+NOWHERE = -1
+"""The index of an output that does not exist."""
+
+
+class TapeOutputs:
+    """The outputs of a graph: numbers and points by their first index, without duplicates."""
+
+    def __init__(self, graph: Graph, inputs: Mapping[str, float]) -> None:
+        self.graph, self.inputs = graph, dict(inputs)
+        self.outputs: list[int] = []
+        self.places: dict[tuple[int, ...], int] = {}
+        self.values: list[Any] = []
+        self.pages: dict[Any, TracedNumber] = {}
+        """Places on the page by field and point, each computed once."""
+
+    def lifted(self, value: Any) -> TracedNumber:
+        """A number or point of the graph, made from a plain one if needed."""
+        return entered(self.graph, value)
+
+    def number(self, value: Any) -> int:
+        """The index of a number among the outputs."""
+        return self.put(self.lifted(value).node)
+
+    def point(self, value: Any) -> int:
+        """The index of a point's x among the outputs; its y comes next."""
+        point = self.lifted(value)
+        return self.put(point.node, point.imag.node)
+
+    def put(self, *nodes: int) -> int:
+        """The index of some consecutive nodes."""
+        if nodes not in self.places:
+            self.places[nodes] = len(self.outputs)
+            self.outputs.extend(nodes)
+        return self.places[nodes]
+
+    def now(self, value: Any) -> Any:
+        """A number, point or condition at the scene's position; a plain value unchanged."""
+        if isinstance(value, Truth):
+            return self.value(value.node)
+        if not isinstance(value, TracedNumber):
+            return value
+        if value.down is None:
+            return self.value(value.node)
+        return complex(self.value(value.node), self.value(value.down))
+
+    @contextmanager
+    def choosing(self) -> Iterator[None]:
+        """A context in which marks are chosen as at the scene's own position."""
+        before, self.graph.now = self.graph.now, self.value
+        try:
+            yield
+        finally:
+            self.graph.now = before
+
+    def value(self, number: int) -> Any:
+        """The value of a node at the scene's own position."""
+        if number >= len(self.values):
+            for node in self.graph.nodes[len(self.values) : number + 1]:
+                self.values.append(value_of(node, self.values, self.inputs))
+        return self.values[number]
+
+
+def value_of(node: Node, values: Sequence[Any], inputs: Mapping[str, float]) -> Any:
+    """The value of a node from the values before it; NaN where it is undefined."""
+    if node.op == "number":
+        return node.value
+    if node.op == "input":
+        return inputs[node.name]
+    args = [values[arg] for arg in node.args]
+    try:
+        return OPERATIONS[node.op].value(*args)
+    except (ValueError, OverflowError):
+        return math.nan
+
+
+def runner(graph: Graph, outputs: Sequence[int]) -> Callable[[Mapping[str, Any]], list[Any]]:
+    """Some outputs as a function of arrays of inputs, all of the same length."""
+    known = {op: each.array for op, each in OPERATIONS.items()} | {"over": "reciprocal"}
+    order = [(number, graph.nodes[number]) for number in graph.needed(outputs)]
+    calls = [
+        (number, node, getattr(np, known[node.op]) if node.op in known else None)
+        for number, node in order
+    ]
+
+    def found(inputs: Mapping[str, Any]) -> list[Any]:
+        values: dict[int, Any] = {}
+        with np.errstate(all="ignore"):
+            for number, node, call in calls:
+                if call is not None:
+                    values[number] = call(*[values[arg] for arg in node.args])
+                else:
+                    values[number] = inputs[node.name] if node.name else np.float64(node.value)
+        return [values[number] for number in outputs]
+
+    return found

@@ -7,11 +7,9 @@ it is emitted as source in emitted.py and javascript.py. The graph depends on ne
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable, Iterable
 from typing import Any, NamedTuple
-
-COMMUTING = frozenset({"add", "mul", "min", "max", "equal", "both", "either"})
-"""Operations whose arguments may be swapped."""
 
 
 class Node(NamedTuple):
@@ -23,6 +21,11 @@ class Node(NamedTuple):
     name: str = ""
 
 
+def whole(rounding: Callable[[float], int], a: float) -> float:
+    """A number rounded to a whole one; unchanged where it is infinite or NaN."""
+    return float(rounding(a)) if math.isfinite(a) else a
+
+
 def quotient(a: float, b: float) -> float:
     """A quotient as numpy has it: division by zero gives infinity or NaN."""
     if b:
@@ -30,24 +33,66 @@ def quotient(a: float, b: float) -> float:
     return a * math.copysign(math.inf, b)
 
 
-FOLD: dict[str, Callable[..., float]] = {
-    "add": lambda a, b: a + b,
-    "sub": lambda a, b: a - b,
-    "mul": lambda a, b: a * b,
-    "over": lambda a: quotient(1.0, a),
-    "neg": lambda a: -a,
-    "abs": abs,
-    "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan,
-    "min": min,
-    "max": max,
-    "round": lambda a: float(round(a)) if math.isfinite(a) else a,
-    "floor": lambda a: float(math.floor(a)) if math.isfinite(a) else a,
-    "cos": math.cos,
-    "sin": math.sin,
-    "sin45": math.sin,
-    "atan2": math.atan2,
+class Operation(NamedTuple):
+    """An operation: its value on numbers, and how each language writes it.
+
+    ``array`` is its function of numpy, ``loop`` its expression in a compiled loop. JavaScript has a
+    ``sign`` for it, or a ``call`` of Math. An operator that ``binds`` more strongly needs no
+    brackets as an argument. ``commutes``: its arguments may be swapped. ``decides``: it gives or
+    uses a condition.
+    """
+
+    value: Callable[..., Any]
+    array: str
+    loop: str
+    sign: str = ""
+    call: str = ""
+    binds: int = 0
+    commutes: bool = False
+    decides: bool = False
+
+
+OPERATIONS: dict[str, Operation] = {
+    "add": Operation(operator.add, "add", "{} + {}", "{}+{}", binds=2, commutes=True),
+    "sub": Operation(operator.sub, "subtract", "{} - {}", "{}-{}", binds=2),
+    "mul": Operation(operator.mul, "multiply", "{} * {}", "{}*{}", binds=3, commutes=True),
+    "over": Operation(lambda a: quotient(1.0, a), "divide", "1.0 / {}", "1/{}", binds=3),
+    "neg": Operation(operator.neg, "negative", "-{}", "-{}"),
+    "abs": Operation(abs, "absolute", "abs({})", call="abs"),
+    "sqrt": Operation(
+        lambda a: math.sqrt(a) if a >= 0 else math.nan, "sqrt", "sqrt({})", call="sqrt"
+    ),
+    "min": Operation(min, "minimum", "{0} if {0} <= {1} else {1}", call="min", commutes=True),
+    "max": Operation(max, "maximum", "{1} if {0} <= {1} else {0}", call="max", commutes=True),
+    "round": Operation(lambda a: whole(round, a), "rint", "rint({})", call="round"),
+    "floor": Operation(lambda a: whole(math.floor, a), "floor", "floor({})", call="floor"),
+    "cos": Operation(math.cos, "cos", "cos({})", call="cos"),
+    "sin": Operation(math.sin, "sin", "sin({})", call="sin"),
+    "sin45": Operation(math.sin, "sin", "sin45({})", call="sin"),
+    "atan2": Operation(math.atan2, "arctan2", "atan2({}, {})", call="atan2"),
+    "less": Operation(operator.lt, "less", "{} < {}", "{}<{}", binds=1, decides=True),
+    "at_most": Operation(operator.le, "less_equal", "{} <= {}", "{}<={}", binds=1, decides=True),
+    "equal": Operation(operator.eq, "equal", "{} == {}", "{}=={}", commutes=True, decides=True),
+    "both": Operation(
+        lambda a, b: bool(a) and bool(b),
+        *("logical_and", "{} & {}", "{}&&{}"),
+        commutes=True,
+        decides=True,
+    ),
+    "either": Operation(
+        lambda a, b: bool(a) or bool(b),
+        *("logical_or", "{} | {}", "{}||{}"),
+        commutes=True,
+        decides=True,
+    ),
+    "not": Operation(operator.not_, "logical_not", "not {}", "!{}", decides=True),
+    "choose": Operation(
+        lambda condition, yes, no: yes if condition else no,
+        *("where", "{1} if {0} else {2}", "{}?{}:{}"),
+        decides=True,
+    ),
 }
-"""The value of an operation on constants."""
+"""Every operation of a graph."""
 
 
 class Graph:
@@ -112,13 +157,14 @@ class Graph:
     def simplest(self, op: str, args: tuple[int, ...]) -> int:
         """The node of a new operation, in its simplest form."""
         known = self.constants
-        if args[0] in known and op in FOLD and all(arg in known for arg in args):
-            return self.number(float(FOLD[op](*(known[arg] for arg in args))))
+        own = OPERATIONS[op]
+        if not own.decides and all(arg in known for arg in args):
+            return self.number(float(own.value(*(known[arg] for arg in args))))
         simpler = SIMPLER.get(op)
         found = simpler(self, *args) if simpler else None
         if found is not None:
             return found
-        return self.put(op, tuple(sorted(args)) if op in COMMUTING else args)
+        return self.put(op, tuple(sorted(args)) if own.commutes else args)
 
     def sum_of_squares(self, a: int, b: int) -> int:
         """a² + b²; a common factor is taken out, so that equal lengths share nodes."""

@@ -16,7 +16,7 @@ from typing import Any
 
 from graphkin.construction.core.program import Program
 from graphkin.construction.core.run import Trace, Values, is_array, made_ready, run_moving
-from graphkin.construction.tape.graph import Graph
+from graphkin.construction.tape.graph import OPERATIONS, Graph
 from graphkin.numbers.arithmetic import Kind, nearest_quarter, np, quarter_turns
 
 
@@ -216,7 +216,7 @@ class TracedNumber(Traced):  # noqa: PLW1641
         first, second = pair[::-1] if turned else pair
         values = [self.graph.constant(each.node) for each in (first, second)]
         if None not in values:
-            return COMPARE[op](*values)
+            return OPERATIONS[op].value(*values)
         return Truth(self.graph, self.graph.do(op, first.node, second.node))
 
     def __lt__(self, other: Any) -> Any:
@@ -243,13 +243,6 @@ class TracedNumber(Traced):  # noqa: PLW1641
         return ~found if isinstance(found, Truth) else not found
 
     __radd__, __rmul__ = __add__, __mul__
-
-
-COMPARE: dict[str, Callable[..., bool]] = {
-    "less": operator.lt,
-    "at_most": operator.le,
-    "equal": operator.eq,
-}
 
 
 def entered(graph: Graph, value: Any) -> TracedNumber:

@@ -11,7 +11,7 @@ from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.fairness import judged
 from graphkin.classroom.lab.items import asked_fields
 from graphkin.classroom.lab.lab_model import Lab, LabRule, Rubric
-from graphkin.construction.reactions import by_name
+from graphkin.construction.core.solution import by_name
 from graphkin.mechanism import Mechanism, load
 from graphkin.scene.read_scene import read_text
 

@@ -23,7 +23,7 @@ from graphkin.construction.tape.emitted import (
     numpy_source,
     sin45,
 )
-from graphkin.construction.tape.graph import COMMUTING, Graph
+from graphkin.construction.tape.graph import OPERATIONS, Graph
 from graphkin.construction.tape.traced import TracedNumber, UntraceableError
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.arithmetic import batch_kind, pick
@@ -266,7 +266,7 @@ def rule(expression) -> str:
         if node.op in ("input", "number"):
             return node.name or f"{node.value:g}"
         parts = [read(arg) for arg in node.args]
-        return f"{node.op}({', '.join(sorted(parts) if node.op in COMMUTING else parts)})"
+        return f"{node.op}({', '.join(sorted(parts) if OPERATIONS[node.op].commutes else parts)})"
 
     return read(found.node)
 
