@@ -147,6 +147,8 @@ ROOM = RIGHT - LEFT - INDENT
 TOP, BOTTOM = A4_AREA[1] + 8, A4_AREA[3] - 4
 HALF = A4_SIZE[1] / 2
 """A page whose last line is higher is less than half full, in mm."""
+SHORT = 3
+"""The most lines of a section that stays with its heading."""
 EVEN = 0.75
 """Least height of a page's lines in that of the fullest page, except on the last page."""
 DOT = ". "
@@ -326,7 +328,7 @@ def laid_out(
 def paged(
     rows: Sequence[CalculationRow], line: float, bottom: float, *, whole: bool = False
 ) -> list[list[tuple[float, CalculationRow]]]:
-    """The lines with their places, page by page; no heading ends a page.
+    """The lines with their places, page by page; no heading and no single line ends a page.
 
     With ``whole``, the lines below a heading stay on its page if one page holds them.
     """
@@ -335,18 +337,21 @@ def paged(
     for i, row in enumerate(rows):
         page = pages[-1]
         step = line + (GAP if row.heading and page else 0) + (page[-1][1].depth if page else 0)
-        below = line if row.heading else 0.0
-        if row.heading and whole:
-            below = sum(
-                line + each.depth
-                for each in takewhile(lambda each: not each.heading, rows[i + 1 :])
-            )
+        below = sum(line + each.depth for each in kept_with(rows, i, whole=whole))
         if page and y + step + below + row.depth > bottom:
             pages.append([])
             page, y, step = pages[-1], TOP, line
         y = y + step if page else y
         page.append((y, row))
     return pages
+
+
+def kept_with(rows: Sequence[CalculationRow], i: int, *, whole: bool) -> Sequence[CalculationRow]:
+    """The lines after a line that stay on its page: no page has a single line of a section."""
+    rest = [*takewhile(lambda each: not each.heading, rows[i + 1 :])]
+    if rows[i].heading:
+        return rest if whole or len(rest) <= SHORT else rest[:2]
+    return rest if len(rest) == 1 else ()
 
 
 def page_of(

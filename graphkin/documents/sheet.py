@@ -721,7 +721,7 @@ def title_line(
         Text(left, low - 1.4 * height * (len(lines) - 1 - i), line, "title", height, name="title")
         for i, line in enumerate(lines)
     ]
-    end, y = paper.left[2], paper.area[1] + (9.5 if paper.lowered else 5.5)
+    end, y = paper.left[2], paper.area[1] + (9.5 if paper.lowered else 5.0)
     marks += check_bar(end - 106, y)
     said = words_of(words("page.check_bar"))
     beside = flowed(said, " ", end - 109 - left, LETTERS)

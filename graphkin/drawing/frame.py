@@ -466,7 +466,7 @@ def check_bar(x: float, y: float) -> tuple[Mark, ...]:
         tick = 4.0 if i % 10 == 0 else 3.0 if i % 5 == 0 else 2.0
         marks.append(LineMark(x + i, y, x + i, y - tick, "check-bar"))
     for i in range(0, 101, 10):
-        marks.append(Text(x + i, y + 3.6, str(i), "check-bar", 2.5, "middle"))
+        marks.append(Text(x + i, y + 3.3, str(i), "check-bar", 2.5, "middle"))
     return tuple(marks)
 
 

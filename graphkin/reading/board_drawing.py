@@ -20,7 +20,6 @@ from graphkin.classroom.grading.feedback import (
     LEFT,
     LETTER,
     RIGHT,
-    SMALL,
     Block,
     DrawingBack,
     text_block,
@@ -336,7 +335,7 @@ def given_back(sheets: Sequence[JudgedSheet], words: Words) -> DrawingBack:
             )
         )
     markup = from_template("reading/web/board.html", title=title, legend=legend, sheets=sheet_parts)
-    blocks: list[Block] = [text_block(title, 3.5), text_block(escape(legend), SMALL)]
+    blocks: list[Block] = [text_block(title, 3.5), text_block(escape(legend), LETTER)]
     for name, drawn, lines in sheet_parts:
         blocks += [text_block(name, LETTER), on_paper(drawn, sheets[0].sheet.drawing.paper)]
         blocks += [remark(text, look) for text, look in lines]
@@ -387,7 +386,7 @@ INKED = {"own": "construction", "dot": "dimension", "bar": "dimension"} | {
 
 def remark(text: str, look: str) -> Block:
     """A remark on a point, in its colour."""
-    height, marks = text_block(text, SMALL)
+    height, marks = text_block(text, LETTER)
     return height - 1.6, [replace(mark, cls=look) for mark in marks if isinstance(mark, Text)]
 
 

@@ -520,6 +520,7 @@ def record(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, o
         "stops": [first for first, _, _ in protocol.stops()],
         "count": words("page.step_of", number="{number}", all="{all}"),
         "mark": words("decimal_mark"),
+        "between": words("clause_mark"),
         "sense": [words("page.anticlockwise"), words("page.clockwise")],
         "slides": facts.senses(sheets[0].drawing),
         "scales": {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from math import cos, pi, radians, sin, sqrt, tan
 from pathlib import Path
 
@@ -20,6 +21,7 @@ from graphkin.documents.calculation import (
     all_rows,
     calculation,
     laid_out,
+    paged,
 )
 from graphkin.documents.relations import relations
 from graphkin.documents.sentences import sentences
@@ -257,10 +259,11 @@ def test_a_form_gives_only_the_parameters_of_what_it_asks(language):
     key, task = (relation_lines(calculations("pump", 28, of, language)) for of in ("key", "task"))
     given = [line for number, line in task[: task.index(after_data(task)[0])] if not number]
     asked = dict(task)
-    assert "*n* = 28;" in " ".join(given)
+    mark = words(language)("clause_mark").rstrip()
+    assert f"*n* = 28{mark}" in " ".join(given)
     assert words(language)("page.turning_anticlockwise") in " ".join(given)
     assert not re.search(r"\b(86|580)\b", " ".join(line for _, line in task))
-    assert "*φ* = 86°;" in " ".join(line for _, line in key)
+    assert f"*φ* = 86°{mark}" in " ".join(line for _, line in key)
     assert asked["1"].startswith("*φ* = 30 + 2·*n* = . .") and asked["1"].endswith(". °")
     assert dict(key)["1"] == "*φ* = 30 + 2·*n* = 30 + 2·28 = 86°"
 
@@ -437,3 +440,17 @@ def test_strokes_are_requested_where_their_boxes_are_and_swings_of_links_only():
     assert not {*asked} & {each for drawing in drawings for each in asked_words(drawing)}
     solved = " ".join(plain(row.markup) for row in all_rows(drawings, {}, solved=True))
     assert not any(each in solved for each in asked)
+
+
+@pytest.mark.parametrize("count", range(1, 9))
+def test_no_page_has_a_single_line_of_a_section(count):
+    """Nor does a page end with a heading, wherever it ends."""
+    heading, line = CalculationRow("h", heading=True), CalculationRow("x")
+    rows = [heading, *[line] * 12, heading, *[line] * count, heading, line]
+    for end in range(60, 160):
+        pages = ["".join("xh"[row.heading] for _, row in p) for p in paged(rows, 5.5, float(end))]
+        assert "".join(pages) == "".join("xh"[row.heading] for row in rows)
+        for page, after in pairwise(pages):
+            assert not page.endswith("h")
+            assert after.startswith("h") or not page.endswith("hx")
+            assert len(after.partition("h")[0]) != 1

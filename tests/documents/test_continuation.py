@@ -255,7 +255,7 @@ def test_a_plan_that_is_drawn_larger_stays_clear_of_all_else(language):
 
 
 def test_a_colon_stands_apart_in_french_and_close_in_english():
-    for language, colon in (("fr", " : "), ("en", ": ")):
+    for language, colon in (("fr", "\N{NARROW NO-BREAK SPACE}: "), ("en", ": ")):
         spoken = words(language)
         documents = drawn_sheets(drawings_from(TEXTS["chain of 6"], language), "key")
         marks = [mark for each in documents for page in each.pages for mark in page.marks]

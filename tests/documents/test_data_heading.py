@@ -22,7 +22,9 @@ from graphkin.documents.sheet_documents import (
 )
 from graphkin.drawing.field import A3, ABOVE
 from graphkin.drawing.marks import LineMark, Text, reach
-from graphkin.mechanism import load
+from graphkin.drawing.symbol_markup import symbol
+from graphkin.mechanism import Mechanism, load
+from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from tests.chosen import HALVES
 from tests.documents.full_scenes import NAMED, drawings_from
@@ -129,3 +131,42 @@ def test_long_data_are_tables_where_the_drawings_leave_their_height(name):
     assert max(ends) < last.paper.left[2]
     lines = [mark.y for mark in marks if isinstance(mark, Text) and mark.cls == "caption"]
     assert min(lines) > rows[-1] + 3
+
+
+PLATES = """
+graphkin = 1
+title = "Plates"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[frame]
+O = [0, 0]
+Q = [180, 20]
+[links.1]
+O-A = 50
+[links.2]
+A = [0, 0]
+B = [150, 0]
+C = [90, 60]
+[links.3]
+Q = [0, 0]
+B = [110, 0]
+D = [50, 40]
+[[drivers]]
+turn = 1
+angle = 60
+speed = 60
+[branches]
+B = "left of A-Q"
+"""
+
+
+def test_points_of_plates_are_columns_and_their_axes_stand_beside():
+    """A point with coordinates on two links has the index of each."""
+    mechanism = Mechanism(read_text(PLATES, "x"))
+    drawing = drawings_of(mechanism, proved(mechanism, mechanism.solve()), words("en"))[0]
+    found = data(drawing)
+    values = {datum.name: datum.value for datum in found}
+    assert values[symbol("C")] == "(90, 60) mm"
+    assert values[symbol("B_2")] == "(150, 0) mm"
+    assert values[symbol("B_3")] == "(110, 0) mm"
+    said = [datum.words for datum in found]
+    assert f"{symbol('A')}, {symbol('B_2')}, {symbol('C')}: in the axes of link 2" in said

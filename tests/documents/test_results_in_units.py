@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -387,3 +388,15 @@ def test_forces_in_pounds_are_reported_in_pounds(run: Run, tmp_path) -> None:
     assert own["units"]["moment"] == "lbf·in"
     moment = own["balance"]["1"]["moment"] * POUND * INCH
     assert si["balance"]["1"]["moment"] == pytest.approx(moment, rel=1e-9)
+
+
+@pytest.mark.parametrize("results", ["in", "SI"])
+def test_a_length_in_a_polygon_is_marked_as_it_is_printed(results: str) -> None:
+    """Factors of forces are round in pounds, so a polygon in pounds has other lengths."""
+    text = PRESS.replace("force =", f'results = "{results}", force =', 1)
+    mechanism = Mechanism(read_text(text, "x"))
+    fields = asked_fields(mechanism)
+    own = standard(mechanism, fields.values(), Rubric(points=dict.fromkeys(fields, Fraction(1))))
+    found = texts(mechanism, "key")
+    printed = next(b for a, b in pairwise(found) if a == "R12" and re.fullmatch(r"[\d.]+", b))
+    assert own.key["R_12_mm"] == pytest.approx(float(printed), abs=0.006)

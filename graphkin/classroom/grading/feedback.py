@@ -377,7 +377,7 @@ LEFT, RIGHT = A4_AREA[0] + 4, A4_AREA[2] - 4
 TOP, BOTTOM = A4_AREA[1] + 10, A4_AREA[3] - 5
 WIDTHS = (26.0, 34.5, 34.5, 28.2, 21.0, 27.8)
 """The widths of the columns, in mm; the second and third have room for a sense in words."""
-LETTER, SMALL = 2.5, 1.8
+LETTER = 2.5
 LEADING, ROOM = 4.2, 2.6
 """The distance of lines and the space below a field, in mm."""
 INDENT = 4.0
@@ -519,7 +519,7 @@ class Spacing(Struct, frozen=True):
     room: float
 
 
-SPACINGS = (Spacing(3.4, 2.6), Spacing(3.3, 1.9), Spacing(3.1, 1.7))
+SPACINGS = (Spacing(4.0, 2.6), Spacing(3.85, 2.0), Spacing(3.7, 1.7))
 """From wide to narrow. The first that fits one page is used, else the widest."""
 
 
@@ -588,7 +588,7 @@ def blocks(
         yield head_block(words)
     for row in table_rows:
         yield row_block(row, spacing, words("feedback.right"))
-    yield text_block(how(rubric, words), SMALL)
+    yield text_block(how(rubric, words), LETTER)
 
 
 def text_block(markup: str, height: float) -> Block:
@@ -633,13 +633,13 @@ def row_block(row: FeedbackRow, spacing: Spacing, right: str) -> Block:
     why: Sequence[str] = ()
     if row.why == right:
         before = RIGHT - 2.5 - extent(row.cells[-1], LETTER)[0]
-        marks.append(Text(before, LEADING, right, "caption", SMALL, "end"))
+        marks.append(Text(before, LEADING, right, "caption", LETTER, "end"))
     else:
-        why = flowed(list(pieces(row.why, room, SMALL)), " ", room, SMALL)
+        why = flowed(list(pieces(row.why, room, LETTER)), " ", room, LETTER)
     y = LEADING
     for line in why:
         y += spacing.line
-        marks.append(Text(LEFT + INDENT, y, line, "caption", SMALL))
+        marks.append(Text(LEFT + INDENT, y, line, "caption", LETTER))
     below = min(1.6, spacing.room - 0.6)
     marks.append(LineMark(LEFT, y + below, RIGHT, y + below, "panel"))
     return y + spacing.room, marks
@@ -651,13 +651,12 @@ def columns(texts: Sequence[str], y: float) -> list[Mark]:
     x = LEFT
     for i, (text, width) in enumerate(zip(texts, WIDTHS, strict=True)):
         if text:
-            height = LETTER if extent(text, LETTER)[0] <= width - 1 else SMALL
-            fits = extent(text, height)[0] <= width - 1
-            shown = text if fits else shortened(text, width - 1, SMALL)
+            fits = extent(text, LETTER)[0] <= width - 1
+            shown = text if fits else shortened(text, width - 1, LETTER)
             if i == 0:
-                marks.append(Text(x, y, shown, "table", height))
+                marks.append(Text(x, y, shown, "table", LETTER))
             else:
-                marks.append(Text(x + width - 1, y, shown, "table", height, "end"))
+                marks.append(Text(x + width - 1, y, shown, "table", LETTER, "end"))
         x += width
     return marks
 

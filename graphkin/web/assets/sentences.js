@@ -113,7 +113,7 @@ function tell_rates_of(step) {
       ? read.flatMap(({ row, text: name }, i) => {
           const { cells } = document.querySelector(`#results [data-row="${CSS.escape(row)}"]`),
             start = html_element("span");
-          start.innerHTML = `${i ? "; " : ""}${name} = `; // markup of symbols, escaped by its maker
+          start.innerHTML = `${i ? data.between : ""}${name} = `; // markup of symbols, escaped by its maker
           return [start, ...(state.dead ? ["?"] : size_read([...cells]))];
         })
       : place.drawn),
