@@ -599,6 +599,13 @@ def test_a_mark_beside_a_line_is_none_of_a_point_on_it(mark: str) -> None:
     assert ink_of(line, *aside).is_marked_beside(230 + 100j, 1 + 0j)
 
 
+@pytest.mark.parametrize("shift", [0.3, 0.6, 0.9])
+def test_a_letter_written_over_a_dot_on_a_line_is_no_mark_beside_it(shift: float) -> None:
+    line = (200 + 100j, 260 + 100j)
+    letter = ring_of(230 + (100 + shift) * 1j, 1.1)[2:11]
+    assert not ink_of(line, *MARKS["dot"], *letter).is_marked_beside(230 + 100j, 1 + 0j)
+
+
 def test_a_line_that_leaves_the_window_it_was_seen_in_is_another() -> None:
     """By 3 degrees, as after a mistake: it passes where it begins, not where it should end."""
     ink = ink_of((200 + 100.2j, 255.9 + 97.2j))
