@@ -217,7 +217,9 @@ class DrawnInk(Struct, frozen=True):
         full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > SEEN)
         round_it = (full[:, :-BEYOND] - full[:, BEYOND:]).max(axis=1)
         half = turns.size // 2
-        arms = drawn[:, :BEYOND].mean(axis=1) - drawn[:, -2:].mean(axis=1)
+        inner = seen[:, :BEYOND]  # print may hide the middle of a cross
+        arms = drawn[:, :BEYOND].sum(axis=1) / np.maximum(inner.sum(axis=1), 1)
+        arms = arms * (inner.mean(axis=1) > SEEN) - drawn[:, -2:].mean(axis=1)
         across = np.minimum(arms[:, :half], arms[:, half:]).max(axis=1)
         return np.maximum(round_it, across)
 
