@@ -61,8 +61,11 @@ OFF_LINE = 0.5
 """A mark whose centre is farther than this from a line, in mm, is not a point on the line."""
 ASIDE = np.arange(0.3, 0.5, 0.05)
 """Distances in mm from a printed line at which strokes drawn over it are visible."""
-BEYOND, MARKED = 6, 0.7
-"""How many radii farther out paper must appear again; the least share of a mark that is drawn."""
+BEYOND, MARKED, ALIKE = 6, 0.7, 0.1
+"""How many radii farther out paper must appear again; the least share of a mark that is drawn.
+
+Places that differ by less than the share ALIKE are marked alike.
+"""
 ASLANT, MOST_NODES = 12.0, 6
 """The least angle in degrees at which another line leaves a line; the most such places kept."""
 
@@ -189,8 +192,20 @@ class DrawnInk(Struct, frozen=True):
     def spot(self, places: Any, way: complex | None) -> complex | None:
         """The place, among those given, where a dot, ring or small cross marks a point.
 
-        A line through the places in direction ``way`` is not taken for a mark. None where there is
-        no mark.
+        None where there is no mark.
+        """
+        marked = self.marked(places, way)
+        best = int(marked.argmax())
+        if marked[best] < MARKED:
+            return None
+        near = marked > marked[best] - ALIKE
+        near &= abs(places - places[best]) < MARKS[-1] / 2
+        return complex(places[near].mean())
+
+    def marked(self, places: Any, way: complex | None) -> Any:
+        """How much of a dot, a ring or a small cross is drawn about each place, from 0 to 1.
+
+        A line through the places in direction ``way`` is not taken for a mark.
         """
         turns = np.exp(1j * np.radians(np.arange(0.0, 360.0, 15.0)))
         if way is not None:
@@ -202,21 +217,23 @@ class DrawnInk(Struct, frozen=True):
         full = drawn.sum(axis=2) / np.maximum(seen.sum(axis=2), 1) * (seen.mean(axis=2) > SEEN)
         round_it = (full[:, :-BEYOND] - full[:, BEYOND:]).max(axis=1)
         half = turns.size // 2
-        arms = drawn[:, :BEYOND].mean(axis=1) - drawn[:, -2:].mean(axis=1)
+        inner = seen[:, :BEYOND]  # print may hide the middle of a cross
+        arms = drawn[:, :BEYOND].sum(axis=1) / np.maximum(inner.sum(axis=1), 1)
+        arms = arms * (inner.mean(axis=1) > SEEN) - drawn[:, -2:].mean(axis=1)
         across = np.minimum(arms[:, :half], arms[:, half:]).max(axis=1)
-        marked = np.maximum(round_it, across)
-        best = int(marked.argmax())
-        if marked[best] < MARKED:
-            return None
-        near = marked > marked[best] - 0.1
-        near &= abs(places - places[best]) < MARKS[-1] / 2
-        return complex(places[near].mean())
+        return np.maximum(round_it, across)
 
     def is_marked_beside(self, place: complex, way: complex) -> bool:
-        """Whether the mark seen at a place of a line is next to the line, not on it."""
+        """Whether the mark seen at a place of a line is next to the line, not on it.
+
+        The arms of a cross on the line are themselves marks beside it, and no better ones.
+        """
         near = np.arange(-MARKS[-1] / 2, MARKS[-1] / 2 + PITCH / 2, PITCH)
-        mark = self.spot((place + way * (near[:, None] + 1j * near[None, :])).ravel(), way)
-        return mark is not None and abs(((mark - place) / way).imag) > OFF_LINE
+        beside = near[:, None] + 1j * near[None, :]
+        marked = self.marked((place + way * beside).ravel(), way)
+        on_it = (abs(beside.imag) <= OFF_LINE).ravel()
+        off = float(marked[~on_it].max())
+        return off >= MARKED and off > float(marked[on_it].max()) + ALIKE
 
     def on_print(self, place: complex, way: complex, reach: float) -> float | None:
         """The position along a printed line, in mm from a place on it, of something drawn over it.

@@ -47,7 +47,7 @@ EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 1.0, 2.5, 0.2, -1.5
 """By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
 
 BOTH of the points saying so are enough; no point may say the opposite by more than AGAINST. Of a
-point and one of a trial plan, both must say so.
+point and an unsure one, both must say so.
 """
 
 
@@ -157,11 +157,14 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
 
 
 class WrittenPoint(Struct, frozen=True):
-    """A point beside which a letter is expected; ``tried``: a point of a trial plan."""
+    """A point beside which a letter is expected.
+
+    ``unsure``: a point of a trial plan, which is not read, or one that is asked about as wrong.
+    """
 
     letter: str
     place: complex
-    tried: bool = False
+    unsure: bool = False
 
 
 def exchanged(
@@ -187,11 +190,11 @@ def exchanged(
     found = []
     for one, other in combinations(points, 2):
         both = points[one], points[other]
-        if both[0].letter == both[1].letter or all(each.tried for each in both):
+        if both[0].letter == both[1].letter or all(each.unsure for each in both):
             continue
         sides = side(one, other), side(other, one)
         gain = sum(sides)
-        two = gain < EXCHANGED or any(each.tried for each in both)
+        two = gain < EXCHANGED or any(each.unsure for each in both)
         if min(sides) >= (BOTH if two else AGAINST):
             found.append((one, other, gain))
     explained = set[int]()

@@ -192,14 +192,12 @@ class PointReader(PointSearch):
         """
         steps, plane = self.sheet.exact.program.steps, self.sheet.drawing.plane
         points = {
-            number: WrittenPoint(reading.name[0], self.own[number])
+            number: WrittenPoint(reading.name[0], self.own[number], reading.verdict == "wrong")
             for number, reading in self.readings.items()
-            if reading.verdict in ("right", "follows")
-            and steps[number].plane is plane
-            and steps[number].name
+            if number in self.own and steps[number].plane is plane and steps[number].name
         }
         for number, place in self.tried_points(plane).items():
-            points[number] = WrittenPoint(str(steps[number].name)[0], place, tried=True)
+            points[number] = WrittenPoint(str(steps[number].name)[0], place, unsure=True)
         written = {number: each for number, each in points.items() if each.letter in ALPHABET}
         for one, other, gain in exchanged(self.ink, written):
             for number, there in ((one, other), (other, one)):

@@ -14,7 +14,7 @@ from graphkin.drawing.marks import Text
 from graphkin.reading.drawn_ink import DENSITY, DrawnInk
 from graphkin.reading.point_letters import FLOOR, INKED, letters_near, pieces, straight
 from graphkin.reading.point_reader import PointReader
-from graphkin.reading.point_reading import PointReading, pair
+from graphkin.reading.point_reading import PointReading, ReadVerdict, pair
 from tests.reading.hand_letters import Writing, written
 from tests.reading.test_reading import ink_of
 
@@ -66,10 +66,12 @@ TRIED = POINT - 40 + 30j
 """Where d of a trial plan is expected."""
 
 
-def compared(ink: DrawnInk, tried: complex | None = None) -> list[PointReading]:
-    """The readings of b and d, both right by their lines, after their letters were compared.
+def compared(
+    ink: DrawnInk, tried: complex | None = None, second: ReadVerdict = "right"
+) -> list[PointReading]:
+    """The readings of b and d, b right by its lines, after their letters were compared.
 
-    With ``tried``, there is a d of a trial plan as well.
+    With ``tried``, there is a d of a trial plan as well. ``second`` is the verdict on d.
     """
     reader = object.__new__(PointReader)
     steps = [SimpleNamespace(plane=Plane.VELOCITIES, aside=None, name="b")] * 2
@@ -83,9 +85,10 @@ def compared(ink: DrawnInk, tried: complex | None = None) -> list[PointReading]:
     sheet = SimpleNamespace(exact=exact, drawing=drawing, place=lambda _, value: value)
     reader.sheet = cast("Any", sheet)
     reader.ink, reader.own, reader.next = ink, dict(PLACES), values
+    verdicts: dict[str, ReadVerdict] = {"b": "right", "d_1": second}
     reader.readings = {
-        number: PointReading(name, number, pair(at), "right", False, pair(at), pair(at), 0.0)
-        for (number, at), name in zip(PLACES.items(), ("b", "d_1"), strict=True)
+        number: PointReading(name, number, pair(at), verdict, False, pair(at), pair(at), 0.0)
+        for (number, at), (name, verdict) in zip(PLACES.items(), verdicts.items(), strict=True)
     }
     reader.compare_letters()
     return list(reader.readings.values())
@@ -111,6 +114,15 @@ def test_one_letter_of_another_point_is_enough_to_ask(seed: int) -> None:
     assert one.ask
     assert other.ask
     assert not any(each.ask for each in compared(ink_of(*LINES, *strokes("b", seed))))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_letter_exchanged_with_that_of_a_wrong_point_is_asked(seed: int) -> None:
+    """The other point is somewhat off, so that a person is asked about it anyway."""
+    ink = ink_of(*LINES, *strokes("d", seed), *strokes("b", seed, OTHER))
+    one, other = compared(ink, second="wrong")
+    assert one.doubts == ("letter",)
+    assert other.at == pair(OTHER)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -598,6 +598,27 @@ def test_a_mark_beside_a_line_is_none_of_a_point_on_it(mark: str) -> None:
     assert ink_of(line, *aside).is_marked_beside(230 + 100j, 1 + 0j)
 
 
+@pytest.mark.parametrize("shift", [0.3, 0.6, 0.9])
+def test_a_letter_written_over_a_dot_on_a_line_is_no_mark_beside_it(shift: float) -> None:
+    line = (200 + 100j, 260 + 100j)
+    letter = ring_of(230 + (100 + shift) * 1j, 1.1)[2:11]
+    assert not ink_of(line, *MARKS["dot"], *letter).is_marked_beside(230 + 100j, 1 + 0j)
+
+
+@pytest.mark.parametrize("off", [0.0, 0.1, 0.2])
+def test_the_arms_of_a_cross_on_a_printed_line_are_no_mark_beside_it(off: float) -> None:
+    """Print hides the middle of the cross."""
+    middle = 230 + (100 + off) * 1j
+    cross = [(middle - way, middle + way) for way in (1.4 + 1.4j, 1.4 - 1.4j)]
+    ink = ink_of((200 + 100j, 260 + 100j), *cross)
+    known = np.ones_like(ink.known)
+    row = round((100 - ink.paper.fields[1]) * INK)
+    known[row - round(0.45 * INK) : row + round(0.45 * INK) + 1] = 0
+    printed = DrawnInk(ink.dark, known, ink.sway, ink.paper)
+    assert printed.spot(np.arange(226, 234, 0.2) + 100j, 1 + 0j) is not None
+    assert not printed.is_marked_beside(230 + 100j, 1 + 0j)
+
+
 def test_a_line_that_leaves_the_window_it_was_seen_in_is_another() -> None:
     """By 3 degrees, as after a mistake: it passes where it begins, not where it should end."""
     ink = ink_of((200 + 100.2j, 255.9 + 97.2j))
@@ -765,7 +786,8 @@ def test_where_known_points_and_those_of_trial_plans_lie_is_no_place_of_another(
     search = PointSearch(sheet, ink_of((o, tried), (a, tried), (p, tried)), Pencil(0.4, 0.4))
     search.own = {numbers[name]: places[name] for name in ("a", "p")}
     search.next = search.drawings = search.ahead()
-    assert any(abs(place - tried) < 0.01 for place in search.tried_points(numbers["a_3"]))
+    tried_points = search.tried_points(Plane.VELOCITIES).values()
+    assert any(abs(place - tried) < 0.01 for place in tried_points)
     found = search.best_far(numbers["a_3"], ExpectedPlace(places["a_3"], np.eye(2) * 0.2))
     assert found is None or abs(found.place - tried) > 3
 
