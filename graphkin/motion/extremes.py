@@ -60,6 +60,8 @@ STILL = 4e-15
 """Share of the largest size by which it may leave a level at the ends of that level."""
 PLACED = 1e-8
 """Share of the range within which a place is zero."""
+FOLDED = 1e-6
+"""Share of the range within which a place is at a change point."""
 WITHIN = 1e-9
 """Distance from the edge of a window, as a share of it, at which a value is one from inside."""
 JUMPS = 1e-4
@@ -510,6 +512,7 @@ class Search:
         kept: dict[float, Reached] = {}
         for each in map(self.single, found):
             at = once_round(self.cycle.path, each.at)
+            at = next((u for u in self.changes if abs(at - u) <= FOLDED * self.span), at)
             least = PLACED * self.span
             at = 0.0 if abs(at) <= least or (self.closed and self.span - at <= least) else at
             kept.setdefault(round(at, 6), Reached(at, each.until + at - each.at, each.end))

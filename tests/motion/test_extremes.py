@@ -162,6 +162,19 @@ def test_extremes_at_change_points_are_single_places_counted_from_zero():
     assert found["ω_3"].largest.value == pytest.approx(-10 * 60 / 140)
 
 
+def test_a_kite_turns_slowest_and_fastest_where_it_folds():
+    """Galloway's kite mirrors Q in OB: the short crank turns by twice the angle of OB.
+
+    OB turns with 8 rad/s times 90/120 where the kite is longest, and 90/60 where it is shortest.
+    """
+    found = found_in(load(FOLDER / "motion/galloway-kite.toml"))
+    for label, least, largest in (("ω_1", 12, 24), ("ω_2", 4, 16), ("|v_A|", 0.36, 0.72)):
+        assert found[label].least.value == pytest.approx(least)
+        assert found[label].largest.value == pytest.approx(largest)
+        assert [each.at for each in found[label].least.places] == [0]
+        assert [each.at for each in found[label].largest.places] == [pytest.approx(180)]
+
+
 def test_a_driver_that_runs_backwards_changes_signs_not_places():
     text = (SCENES / "slider-crank.toml").read_text()
     ahead, back = (

@@ -321,7 +321,7 @@ def draw_links(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
-    """Draw wheels and plates, below everything else; an arm is below the wheels that it carries."""
+    """Draw wheels and plates, below everything else; a plate is below the wheels that it bears."""
     plates = [x for x in drawing.scene.links.values() if corners_of(drawing, x) is not None]
     arms = [link for link in plates if bears_wheels(drawing, link)]
     for link in arms:
@@ -333,9 +333,9 @@ def draw_plates(board: FieldContent, drawing: Drawing, field: Field) -> None:
 
 
 def bears_wheels(drawing: Drawing, link: Link) -> bool:
-    """Whether a link carries the centres of wheels of at least two other links."""
+    """Whether a link has a wheel, or carries the centres of wheels of at least two others."""
     wheels = {disc.link for disc in drawing.standing.discs if disc.wheel.centre in link.points}
-    return len(wheels - {link.name}) > 1
+    return link.name in wheels or len(wheels) > 1
 
 
 def draw_bars(board: FieldContent, drawing: Drawing, field: Field) -> None:
