@@ -181,14 +181,6 @@ class DrawnInk(Struct, frozen=True):
         near = drawn[middle - before : middle + before]
         return InkStroke(None) if near.mean() >= RUNS else None
 
-    def runs_on(self, place: complex, way: complex) -> float:
-        """How far a stroke runs on from a place without a gap, in mm, GAP at most."""
-        along = np.arange(PITCH / 2, GAP + PITCH / 2, PITCH / 2)
-        across = np.arange(-0.3, 0.31, 0.15)
-        dark, _ = self.at(place + way * (along[:, None] + 1j * across[None, :]))
-        gaps = np.flatnonzero(dark.max(axis=1) <= COVERED)
-        return float(along[gaps[0]] - PITCH / 2) if gaps.size else GAP
-
     def spot(self, places: Any, way: complex | None) -> complex | None:
         """The place, among those given, where a dot, ring or small cross marks a point.
 

@@ -253,11 +253,13 @@ class PointReader(PointSearch):
             return [tail]
         return [line.start for line in self.lines(tail, place, STRAYS, PASSES)]
 
-    def is_met(self, number: int, best: LinesCrossing, weighed: complex) -> bool:
+    def is_met(
+        self, number: int, best: LinesCrossing, own: ExpectedPlace, weighed: complex
+    ) -> bool:
         """Whether a point is surely at a crossing, however vaguely it was expected.
 
-        More than MEET lines cross there, or two vectors from points that were read end there.
-        ``weighed`` is the place between the crossing and the expected place.
+        More than MEET lines cross there; or two vectors from points that were read end there, or
+        one where no other point is expected. ``weighed`` is between the crossing and ``own``.
         """
         place = best.place
         wholly = min(best.cover, self.agreement(number, place)) >= FULLY
@@ -270,7 +272,23 @@ class PointReader(PointSearch):
             for tail in self.tails_of(arrow, place)
             if any(is_headed(self.ink, tail, each) for each in (place, weighed))
         ]
-        return are_crossing(ways, place)
+        if are_crossing(ways, place):
+            return True
+        return (
+            best.cover >= WHOLE
+            and self.is_headed_at(number, place)
+            and self.is_own(number, place, own)
+        )
+
+    def is_headed_at(self, number: int, place: complex) -> bool:
+        """Whether a vector to a point is wholly drawn from a known tail and headed at a place."""
+        tails = (a.tail for a in self.sheet.arrows if a.tip == number and a.tail is not None)
+        known = (Leading(tail) for tail in tails if tail not in self.unread | self.guessed)
+        return any(
+            is_headed(self.ink, self.far_place(each, self.next), place)
+            for each in known
+            if self.is_known(each)
+        )
 
     def end_of(self, arrow: Arrow, begin: complex) -> VectorEnd:
         """What the end of an arrow to a point that was read says."""
@@ -520,7 +538,9 @@ class PointReader(PointSearch):
             stray = away <= FITS and not near and best.count < MEET
             # untried: depends on an auxiliary plan that was not read
             vague = not there and ((own.radius > VAGUE and not met) or untried)
-            loose = (vague or stray) and (bool(self.bad) or not self.is_met(number, best, weighed))
+            loose = (vague or stray) and (
+                bool(self.bad) or not self.is_met(number, best, own, weighed)
+            )
             odd = any(e.far in self.bad - behind for e in self.sheet.leading[number] if not e.after)
             doubts |= {
                 "off": self.is_off(away, abs(best.place - own.middle)),

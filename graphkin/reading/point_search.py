@@ -22,7 +22,7 @@ from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
 from graphkin.reading.lettered_points import AHEAD, LONGEST, SHORT, Leading, LetteredSheet
-from graphkin.reading.vector_ends import RINGS, is_headed, is_marked
+from graphkin.reading.vector_ends import RINGS, head_along, is_headed, is_marked
 
 CROSSING = 0.12
 """Least sine of the angle between two lines whose crossing gives a point."""
@@ -196,8 +196,10 @@ DRAWN = 0.7
 """The least share of a line that must be drawn for the line to count."""
 PRINTED = 0.3
 """Standard deviation of a hand-drawn mark across the printed line of a guide, in mm."""
-END, NODE, SPOT = 0.8, 0.5, 0.2
-"""Standard deviations in mm: of a line's end, of where others leave it, of a point's mark."""
+END, NODE, SPOT, HEAD = 0.8, 0.5, 0.2, 0.25
+"""Standard deviations in mm: of a line's end, of where others leave it, of a point's mark, and of a
+vector's head.
+"""
 TURN, PACE, BEGIN = 0.3, 0.5, 2.5
 """Steps of a fan of rays, in degrees and in mm, and the distance in mm at which rays begin."""
 AGREED = 0.5
@@ -498,9 +500,9 @@ class PointSearch:
             foot = where.middle - 1j * line.way * line.off(where.middle)
             found = self.ink.stroke(foot, line.way, where.reach)
             if found is not None:
-                shift, along, count = self.headed_end(number, line, foot, found.end), NODE, 2
+                shift, along, count = self.headed_end(number, line, foot, where.reach), HEAD, 2
                 if shift is None:
-                    shift = self.ink.node(foot, line.way, where.reach)
+                    shift, along = self.ink.node(foot, line.way, where.reach), NODE
                 if shift is None and line.error == PRINTED:
                     shift, along = self.marked_along(foot, line.way, where.reach), SPOT
                     if shift is None:
@@ -522,19 +524,16 @@ class PointSearch:
                 return LinesCrossing(place, error, count, line.cover, stops)
         return None if any(lines) else self.marked(number, where)
 
-    def headed_end(
-        self, number: int, line: InkLine, foot: complex, end: float | None
-    ) -> float | None:
-        """The end of a line, in mm from a place on it, if the head of a vector to a point is there.
+    def headed_end(self, number: int, line: InkLine, foot: complex, reach: float) -> float | None:
+        """The end of a vector along a line, in mm from a place on it, if its head is there.
 
-        The sides of that head are no lines that leave the line.
+        The line may run on; the sides of the head are no lines that leave it.
         """
-        if end is None or all(each.tip != number for each in self.sheet.arrows):
+        if all(each.tip != number for each in self.sheet.arrows):
             return None
-        tip = foot + end * line.way
-        if not is_headed(self.ink, line.start, tip):
-            return None
-        return end + self.ink.runs_on(tip, line.way)
+        end = head_along(self.ink, foot, line.way, reach)
+        whole = end is not None and is_headed(self.ink, line.start, foot + end * line.way)
+        return end if whole else None
 
     def marked_along(self, foot: complex, way: complex, reach: float) -> float | None:
         """The position along a line, in mm from a place on it, of a marked point, if any."""

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
+from graphkin.accuracy.pencil import Pencil
 from graphkin.drawing.symbols import head
-from graphkin.reading.vector_ends import FAN, HEADED, VectorEnd, bar_runs_on, heads, vector_end
-from tests.reading.test_reading import ink_of
+from graphkin.reading.point_reader import PointReader
+from graphkin.reading.point_search import ExpectedPlace, LinesCrossing, PointSearch
+from graphkin.reading.vector_ends import (
+    FAN,
+    HEADED,
+    VectorEnd,
+    bar_runs_on,
+    head_along,
+    heads,
+    vector_end,
+)
+from tests.reading.test_reading import a_class, code, ink_of, velocity_of  # noqa: F401
 
 TAIL, TIP = 120 + 150j, 180 + 110j
 WAY = (TIP - TAIL) / abs(TIP - TAIL)
@@ -226,3 +239,62 @@ def test_half_a_head_at_the_tail_of_a_vector_without_one_is_asked_about() -> Non
     half = [(TAIL, TAIL + 1.6 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]
     assert read([*LINE, *RING], along=True).is_there
     assert read([*LINE, *RING, *half], along=True).open
+
+
+@pytest.mark.parametrize("headed", [True, False])
+def test_a_vaguely_expected_point_is_where_its_own_vector_ends(
+    a_class: Path,  # noqa: F811
+    code: str,  # noqa: F811
+    *,
+    headed: bool,
+) -> None:
+    """The head at the end of a vector from the pole says that no other lines cross there."""
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
+    o, at = complex(sheet.place(pole, values[pole])), 300 + 100j
+    shaft, *sides = vector(o, at)
+    reader = PointReader(sheet, ink_of(shaft, *(sides if headed else [])), Pencil(0.4, 0.4))
+    reader.next = reader.drawings = reader.ahead()
+    away = 2.8 * (at - o) / abs(at - o)
+    own = ExpectedPlace(at + away, np.eye(2) * 1.9)
+    read = LinesCrossing(at, np.eye(2) * 0.01, 2, 1.0)
+    told = reader.verdict_on(number, own, own, read)
+    assert (told.verdict, "vague" in told.doubts) == ("right", not headed)
+    reader.own[next(n for n in sheet.points if steps[n].name == "b")] = at - 0.8j
+    assert "vague" in reader.verdict_on(number, own, own, read).doubts
+
+
+@pytest.mark.parametrize(("turn", "runs_on"), [(6, True), (90, True), (90, False)])
+def test_a_vector_along_a_line_ends_at_the_tip_of_its_head(turn: int, *, runs_on: bool) -> None:
+    """Neither the sides of the head nor a line that leaves flatly move its end."""
+    other = (TIP, TIP - 60 * WAY * np.exp(1j * np.radians(turn)))
+    ink = ink_of(*vector(TAIL, TIP), *(LINE + RING if runs_on else []), other)
+    for beside in (-2.5, 0.0, 2.0):
+        found = head_along(ink, TIP + beside * WAY, WAY, 3.5)
+        assert found == pytest.approx(-beside, abs=0.35)
+
+
+def test_of_two_heads_near_one_another_none_is_the_end() -> None:
+    ink = ink_of(*vector(TAIL, TIP), *vector(TAIL, TIP - 6 * WAY), *LINE)
+    assert head_along(ink, TIP - 3 * WAY, WAY, 4.0) is None
+    assert head_along(ink, TIP + 20 * WAY, WAY, 4.0) is None
+
+
+def test_a_point_laid_off_on_a_line_is_at_its_head(
+    a_class: Path,  # noqa: F811
+    code: str,  # noqa: F811
+) -> None:
+    """Another line leaves it too flatly to cross; the sides of the head leave it farther back."""
+    sheet = velocity_of(a_class, code)
+    steps, values = sheet.exact.program.steps, sheet.exact.trace.values
+    number, pole = (next(n for n in values if steps[n].name == name) for name in "ao")
+    o, at = complex(sheet.place(pole, values[pole])), 300 + 100j
+    way = (at - o) / abs(at - o)
+    flat = (at, at - 60 * way * np.exp(1j * np.radians(5)))
+    ink = ink_of(*vector(o, at), (at, at + 30 * way), flat)
+    search = PointSearch(sheet, ink, Pencil(0.4, 0.4))
+    search.next = search.drawings = search.ahead()
+    found = search.best_near(number, ExpectedPlace(at + 0.6 * way, np.eye(2) * 0.5))
+    assert found is not None
+    assert abs(found.place - at) < 0.4
