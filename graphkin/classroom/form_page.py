@@ -319,7 +319,9 @@ def field(item: Item, worth: Fraction | None, computed: bool, words: Words) -> F
         item,
         words("table.sense") if asks_sense else words(KINDS[item.what]),
         why(item, words) if computed else "",
-        f"{words('form.points')}: {words.decimal(f'{float(worth):.4g}')}" if worth else "",
+        f"{words('form.points')}{words('colon')}{words.decimal(f'{float(worth):.4g}')}"
+        if worth
+        else "",
         tuple(zip(TURNING if turning else ALONG, keys, strict=True)) if asks_sense else (),
     )
 

@@ -9,7 +9,7 @@ from graphkin.documents.sheet_documents import CALCULATED, calculation_text, lan
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
-from graphkin.text.errors import Problem, SceneError, message
+from graphkin.text.errors import SceneError, message
 from graphkin.web.step_page import Form, Tell, force_page, silent, step_page, task_page
 from graphkin.web.your_turn import TurnOwner
 
@@ -81,13 +81,11 @@ def hand_out_page(
     for answers. Raises as hand_out does, and SceneError for an overlay, which is laid on paper.
     """
     if view == "overlay":
-        raise SceneError(
-            Problem(
-                "--view overlay",
-                message("is laid over a drawing on paper, and html is a page for a screen"),
-                message("--format svg, pdf or dxf"),
-                message("leave html out of --format, or write another --view; nothing is written"),
-            )
+        raise SceneError.at(
+            "--view overlay",
+            message("is laid over a drawing on paper, and html is a page for a screen"),
+            message("--format svg, pdf or dxf"),
+            message("leave html out of --format, or write another --view; nothing is written"),
         )
     if view in MOTION_VIEWS:
         from graphkin.web.paper_page import motion_page

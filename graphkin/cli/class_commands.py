@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.folder_options import FolderType, class_argument, folder_option, output_option
 from graphkin.cli.options import (
     FAILED,
     READING,
+    FolderType,
+    class_argument,
     complain,
     current,
+    folder_option,
     force_option,
     formats_option,
     house_option,
@@ -24,6 +26,7 @@ from graphkin.cli.options import (
     language_option,
     leave,
     option_words,
+    output_option,
     say,
     tell,
     working,
@@ -230,8 +233,7 @@ def check_lab(name: str) -> None:
 
     Errors in the lab name its own files, not the scene given on the command line.
     """
-    from graphkin.classroom.lab.fairness_words import trial_lines
-    from graphkin.classroom.lab.lab_trial import tried
+    from graphkin.classroom.lab.lab_trial import trial_lines, tried
 
     click.get_current_context().meta.pop(READING, None)
     outcome = tried(lab_of_command(name))

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
     FAILED,
     complain,
@@ -19,6 +18,7 @@ from graphkin.cli.options import (
     leave,
     mechanism_of,
     option_words,
+    output_option,
     pairs_of,
     scales_of,
     scene_argument,
@@ -245,7 +245,7 @@ def cycle(
     files |= table_files(stem, tables, kinds)
     with working() as step:
         if curves := [kind for kind in kinds if kind in ("svg", "png")]:
-            from graphkin.motion.curves.curve_files import picture_files
+            from graphkin.motion.curves.plane_paths import picture_files
 
             step("drawing the curves")
             files |= picture_files(found, stem, curves)
@@ -308,8 +308,7 @@ def accuracy(
     """
     kinds = option_words("--format", formats, ("svg", "png"))
     from graphkin.accuracy.methods import QUICK, Effort
-    from graphkin.accuracy.study import study
-    from graphkin.accuracy.study_pictures import picture_files
+    from graphkin.accuracy.study import picture_files, study
     from graphkin.cli.report.accuracy_report import accuracy_lines, accuracy_table
     from graphkin.cli.report.explain_report import waits_lines, waits_of
     from graphkin.writers.files import file_stem, refuse_folder, write_all

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.folder_options import class_argument
 from graphkin.cli.options import (
     FAILED,
+    class_argument,
     complain,
     formats_option,
     jobs_option,
@@ -209,8 +209,12 @@ def grade(  # noqa: PLR0915
         read_as,
     )
     from graphkin.classroom.grading.gradebook import read_gradebook, with_marks
-    from graphkin.classroom.grading.grading_files import gradebook_name, points_by_id
-    from graphkin.classroom.grading.kept_marks import KEPT_MARKS, kept_marks
+    from graphkin.classroom.grading.grading_files import (
+        KEPT_MARKS,
+        gradebook_name,
+        kept_marks,
+        points_by_id,
+    )
     from graphkin.classroom.grading.turn_scores import TURNS, read_turns, turns_table
     from graphkin.classroom.printing.edition import read_edition
     from graphkin.text import words as words_in

@@ -21,6 +21,7 @@ from graphkin.cli.options import (
     tell,
 )
 from graphkin.text import LANGUAGES
+from graphkin.text import words as spoken
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -276,8 +277,8 @@ def solve(
 
         found = certify(mechanism, found, digits, targets)
     lines: tuple[str, ...] = ()
-    given = stated.forces
-    by_forces = Mechanism(stated).forces() if given is not None and given.asked else None
+    given, own = stated.forces, mechanism if digits is None else Mechanism(stated)
+    by_forces = own.forces() if given is not None and given.asked else None
     if given is not None and by_forces is None:
         complain("masses and loads are left aside: [ask] has neither reactions nor balance")
     if given is not None and by_forces is not None:
@@ -289,7 +290,7 @@ def solve(
 
         held = force_record(given, *by_forces)
         found |= held
-        lines = tuple(force_lines(held))
+        lines = tuple(force_lines(held, spoken("en", length=own.scene.base).unit))
     if pencil is not None and drawn_at is not None:
         own = mechanism if mechanism.scene.base == "m" else Mechanism(stated)
         found["pencil"], errors = by_pencil(own, scales_of(own), pencil)
@@ -330,8 +331,12 @@ def computed_in(mechanism: Mechanism, units: str | None, *, as_json: bool) -> Me
 def units_of(mechanism: Mechanism) -> dict[str, str]:
     """The units of the numbers of a mechanism's motion."""
     base = mechanism.scene.base
-    rates = {"turning": "rad/s", "turning acceleration": "rad/s²"}
-    return {"length": base, "speed": f"{base}/s", "acceleration": f"{base}/s²", **rates}
+    found = {"length": base, "speed": f"{base}/s", "acceleration": f"{base}/s²"}
+    found |= {"turning": "rad/s", "turning acceleration": "rad/s²"}
+    if mechanism.scene.forces is not None:
+        unit = spoken("en", length=base).unit
+        found |= {"force": unit("N"), "moment": unit("N·m")}
+    return found
 
 
 def traced(
@@ -462,7 +467,6 @@ def words(language: str | None, missing: bool) -> None:
 def line_of(language: str) -> str:
     """A language, its name, and how many sentences and messages it has."""
     from graphkin.text import ENGLISH, keys, untranslated
-    from graphkin.text import words as spoken
     from graphkin.text.problems import translations
 
     every, name = len(keys()), spoken(language)("language")

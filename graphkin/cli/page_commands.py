@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.folder_options import FolderType
 from graphkin.cli.options import (
+    FolderType,
     current,
     force_option,
     lang_option,

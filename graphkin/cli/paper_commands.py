@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING
 
 import click
 
-from graphkin.cli.folder_options import class_argument, folder_option
 from graphkin.cli.options import (
     FAILED,
+    class_argument,
     complain,
+    folder_option,
     formats_option,
     ink_option,
     jobs_option,

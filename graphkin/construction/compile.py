@@ -29,7 +29,7 @@ from graphkin.construction.core.quantities import CENTRES, MOTION, names_asked
 from graphkin.construction.core.run import StepFailed, run
 from graphkin.construction.core.vocabulary import action, coordinate
 from graphkin.construction.group_images import ACCELERATIONS, VELOCITIES, GroupImages
-from graphkin.construction.guides.guides import axis, standing_guide
+from graphkin.construction.guides.guides import axis, keep_parallel, standing_guide
 from graphkin.construction.links import plate_points, position
 from graphkin.construction.normal_component import refuse_unused_method
 from graphkin.construction.plan import Plan, omega_of
@@ -138,13 +138,9 @@ def work_of(group: Group) -> tuple[Work, Work, Work]:
         case Tie():
             return position.tie, *both(GroupImages.tie)
         case KeptParallel():
-            from graphkin.construction.links import parallel_link
-
-            return parallel_link.place, *both(parallel_link.move)
+            return keep_parallel, *both(GroupImages.kept)
         case CamFollower():
-            from graphkin.construction.cams import cam
-
-            return cam.place, *both(cam.move)
+            return position.follower, *both(GroupImages.follower)
         case Stretched():
             from graphkin.construction.drivers import cylinder
 

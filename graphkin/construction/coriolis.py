@@ -64,8 +64,8 @@ from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Line, cross
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import turns
-from graphkin.text import AND, COMMA, NOTHING, saying
+from graphkin.structure.turning import turns
+from graphkin.text import COMMA, NOTHING, saying
 
 CORNERS = ("ef", "gh", "rs", "xy")
 """Letters for the corners of the triangle similar to the guide's."""
@@ -252,7 +252,7 @@ class CoriolisComponent(TriangleComponent, frozen=True, kw_only=True):
             return Wording(self.sign, drawing.words("step.coriolis-computed", **fields))
         if not first and self.stands_as_before(drawing):
             return Wording(self.sign, drawing.words("step.coriolis-again", **fields))
-        return Wording(self.sign, AND.join(self.in_full(drawing, "step.coriolis-top")))
+        return Wording(self.sign, drawing.words.clauses(self.in_full(drawing, "step.coriolis-top")))
 
     def stands_as_before(self, drawing: Drawing) -> bool:
         """Whether the last drawn triangles have the same pivot and pin."""

@@ -41,7 +41,17 @@ from graphkin.construction.velocity.relative_motion import parallel_through, per
 from graphkin.construction.velocity.turned_vectors import accelerated
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.scene.model import Driver
-from graphkin.structure.groups import Crank, Driven, Dyad, OnTwoPins, Spun, Tie, other_of
+from graphkin.structure.groups import (
+    CamFollower,
+    Crank,
+    Driven,
+    Dyad,
+    KeptParallel,
+    OnTwoPins,
+    Spun,
+    Tie,
+    other_of,
+)
 from graphkin.structure.pairs import Joint, Leading, Pin, Sliding, partner
 
 if TYPE_CHECKING:
@@ -381,6 +391,13 @@ class GroupImages(Struct, frozen=True):
         if isinstance(group, OnTwoPins) and group.inner.on is not None:
             return
         self.cross(pen, *sides_of(pen.bases, group))
+
+    def follower(self, pen: Pen, group: CamFollower) -> None:
+        """Draw the image of a cam's follower: that of the equivalent linkage."""
+        self.dyad(pen, group.dyad)
+
+    def kept(self, pen: Pen, group: KeptParallel) -> None:
+        """Draw nothing: the pin's image is known; the other points turn with the known link."""
 
     def tie(self, pen: Pen, group: Tie) -> None:
         """Draw the image of a link on two guides; a link between two pins needs none."""

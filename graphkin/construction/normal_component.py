@@ -82,7 +82,7 @@ from graphkin.scene.model import FRAME, Scene
 from graphkin.scene.requests import KLEIN
 from graphkin.structure.groups import other_of
 from graphkin.structure.pairs import Joint, Pin, Sliding
-from graphkin.text import AND, COMMA, saying
+from graphkin.text import COMMA, saying
 from graphkin.text.errors import Problem, StructureError, message
 
 # --- its value, and the steps by hand ------------------------------------------------------------
@@ -246,7 +246,7 @@ class NormalComponent(TriangleComponent, frozen=True, kw_only=True):
         if not first:
             return Wording("ν", drawing.words("step.normal-again", **fields))
         cut, over = self.in_full(drawing, "step.normal-over")
-        return Wording("ν1", AND.join((cut, over)))
+        return Wording("ν1", drawing.words.clauses((cut, over)))
 
     def in_full(self, drawing: Drawing, over: str) -> tuple[str, str]:
         """The instruction for its right triangle in two parts: up to the cut, and the half turn.
@@ -430,7 +430,9 @@ def with_normals_together(drawing: Drawing, found: list[Sentence]) -> list[Sente
         found = [*kept[:place], in_one(rest, "ν", tail), *kept[place:]]
     if short and place is not None:
         said = found[place]
-        found[place] = in_one([said, *short], said.name, AND.join((said.markup, too_short)))
+        found[place] = in_one(
+            [said, *short], said.name, drawing.words.clauses((said.markup, too_short))
+        )
     return found
 
 
@@ -559,7 +561,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
 
     def drawing_words(self, drawing: Drawing, fields: Mapping[str, str], *, first: bool) -> Wording:
         """The construction in full, each time."""
-        markup = AND.join(markup for _, markup in self.in_parts(drawing))
+        markup = drawing.words.clauses(markup for _, markup in self.in_parts(drawing))
         return Wording("ν by chord", markup)
 
     def parts_of_sentence(self, drawing: Drawing) -> Iterator[tuple[int, str]]:

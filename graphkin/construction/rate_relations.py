@@ -37,7 +37,7 @@ def of_turning(drawing: Drawing) -> Iterator[Relation]:
         yield from (other for other in waiting if other.takes == relation.left)
     for relation in of_gears(drawing):
         again = drawing.words("calculation.willis") if relation.left in names_of(found) else ""
-        remark = "; ".join(filter(None, (relation.remark, again)))
+        remark = drawing.words.clauses(filter(None, (relation.remark, again)))
         yield replace(relation, remark=remark)
 
 

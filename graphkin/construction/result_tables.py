@@ -235,7 +235,7 @@ def reasons(drawing: Drawing, rows: Sequence[Row], rect: Rect) -> list[Mark]:
             names.setdefault(why, []).append(row.cells[0])
     mark, colon = drawing.words("list_mark"), drawing.words("colon")
     said = [f"{mark.join(dict.fromkeys(found))}{colon}{why}" for why, found in names.items()]
-    lines = flowed(said, "; ", rect[2] - rect[0], HEIGHT)
+    lines = flowed(said, drawing.words("clause_mark"), rect[2] - rect[0], HEIGHT)
     first = rect[3] - LEADING * (len(lines) - 1)
     return [
         Text(rect[0], first + LEADING * i, line, "caption", HEIGHT, name=COMPUTED)

@@ -7,9 +7,8 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import SaidInParts, construction, constructions
+from graphkin.construction.core.kind import SaidInParts, auxiliary_plan, construction, constructions
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.naming import is_foot_drawn
 from graphkin.construction.core.paper_canvas import (
@@ -27,7 +26,6 @@ from graphkin.drawing.marks import Mark, style_class
 from graphkin.drawing.scale import Extent, extent_of
 from graphkin.drawing.style import VECTORS
 from graphkin.numbers.plane import Vector
-from graphkin.text import AND
 
 
 def draw_mechanism_steps(plot: Plot, *, found: bool) -> None:
@@ -77,7 +75,7 @@ def point_sentence(drawing: Drawing, step: Step) -> str:
     assert kind is not None
     before = kind.said_before(drawing, step.role)
     parts = [clause for arg in before for clause in clauses(drawing, arg, step.plane)]
-    return AND.join([*parts, kind.point_sentence(drawing, step.role)])
+    return drawing.words.clauses([*parts, kind.point_sentence(drawing, step.role)])
 
 
 def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
@@ -96,7 +94,7 @@ def point_parts(drawing: Drawing, number: int) -> Iterator[tuple[int, str]]:
         yield number, point_sentence(drawing, step)
         return
     for arg in kind.said_before(drawing, step.role):
-        if said := AND.join(clauses(drawing, arg, step.plane)):
+        if said := drawing.words.clauses(clauses(drawing, arg, step.plane)):
             yield arg, said
     yield number, apart
 

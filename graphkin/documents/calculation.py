@@ -31,8 +31,8 @@ from graphkin.drawing.richtext import (
     words_of,
 )
 from graphkin.drawing.symbol_markup import escape
-from graphkin.text import AND, Words
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text import Words
+from graphkin.text.errors import PageError, message
 from graphkin.writers.latex import formula_of, head, latex, maths
 from graphkin.writers.latex import words as text_of
 
@@ -227,7 +227,7 @@ def boxed_answers(drawings: Sequence[Drawing]) -> Iterator[CalculationRow]:
     ]
     if found:
         yield CalculationRow(drawings[0].words("calculation.answers"), heading=True, boxed=True)
-        for line in flowed(found, ";", ROOM - INDENT, LETTER):
+        for line in flowed(found, drawings[0].words("clause_mark"), ROOM - INDENT, LETTER):
             yield CalculationRow(line, boxed=True)
 
 
@@ -237,7 +237,7 @@ def legends(
     """The sentences below a heading: how solved lines are read, and what travel a task asks for."""
     words = drawings[0].words
     if section == "travel" and not solved:
-        yield AND.join(travel_words(drawings[0]))
+        yield words.clauses(travel_words(drawings[0]))
     if section != FIRST or not solved:
         return
     yield words("calculation.readings")
@@ -270,13 +270,11 @@ def broken(
     lines = flowed(parts, "", room, LETTER)
     for i, line in enumerate(lines):
         if extent(line, LETTER)[0] > room:
-            raise PageError(
-                Problem(
-                    "calculation",
-                    message("does not fit: {line}", line=plain(line)),
-                    message("a shorter relation"),
-                    message("shorten the names of the points"),
-                )
+            raise PageError.at(
+                "calculation",
+                message("does not fit: {line}", line=plain(line)),
+                message("a shorter relation"),
+                message("shorten the names of the points"),
             )
         written = line if solved else dotted(line, room)
         yield CalculationRow(written, tag if i == len(lines) - 1 else "")
@@ -356,7 +354,7 @@ def page_of(
 ) -> Page:
     """One page."""
     words = drawing.words
-    title = "; ".join([escape(title_of(drawing)), *parameters(drawing.scene, words)])
+    title = words.clauses([escape(title_of(drawing)), *parameters(drawing.scene, words)])
     name = words("sheet.document_calculation", view=words(f"sheet.{view}"))
     sheet = drawing.scene.sheet
     made, whose = escape(sheet.author), escape(sheet.student)

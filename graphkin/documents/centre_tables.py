@@ -14,7 +14,7 @@ from graphkin.construction.core.solution import UNKNOWN, Solution
 from graphkin.numbers.arithmetic import at
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME, Scene
-from graphkin.structure.pairs import guides_under
+from graphkin.structure.turning import guides_under
 from graphkin.text.tables import NOISE, Cell, cleaned, number, table
 
 FAR = 1e9

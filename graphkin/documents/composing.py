@@ -262,9 +262,7 @@ def least(box: Extent, paper: SheetPaper) -> float:
     room = paper.room / 2 if paper.is_parted else paper.room - NARROW
     needed = max(1000 * box.width / room, 1000 * box.height / paper.upright)
     if not needed > 0:
-        raise PageError(
-            Problem("scale", message("the mechanism has no extent"), message("points apart"))
-        )
+        raise PageError.at("scale", message("the mechanism has no extent"), message("points apart"))
     return float(needed)
 
 
@@ -342,12 +340,7 @@ def no_room(needs: Needs, stated: Stated, seconds: float) -> Problem:
     kL = next(
         kL
         for kL in preferred_scales(least(needs.bare, stated.paper), stated.steps)
-        if fits_at(needs, free, kL)
+        if composed(needs, kL, times_of(free, TIMES, 1.0), free, 1.0) is not None
     )
     hint = message("write scale = {kL}, or leave it out", kL=digits(kL))
     return Problem("sheet.scale", found, message("{kL} or smaller", kL=ratio(kL)), hint)
-
-
-def fits_at(needs: Needs, stated: Stated, kL: float) -> bool:
-    """Whether everything fits at a scale."""
-    return composed(needs, kL, times_of(stated, TIMES, 1.0), stated, 1.0) is not None

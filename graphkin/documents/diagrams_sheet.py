@@ -558,11 +558,15 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
     hand = mark() * sqrt(count) * interval / found.distance / found.axes.high
     per_mm = words.unit(f"{rates_units(motion)[0]}/mm")
     rule = f"*k*_{{*{s}*}} = *k*_{{*{v}*}}·*k*_{{*{u_symbol(motion)}*}}·*H*{pace}"
-    said = [
+    said: list[str] = [
         words("diagrams.levels", v=v),
         words("diagrams.polygon", s=s),
-        f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}; "
-        f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
+        words.clauses(
+            (
+                f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}",
+                f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
+            )
+        ),
         words(
             "diagrams.summed",
             s=s,

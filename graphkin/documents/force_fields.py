@@ -38,6 +38,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import FLOAT, larger, np, pick, smaller
 from graphkin.numbers.plane import Line
 from graphkin.scene.model import joined_words, link_words
+from graphkin.scene.quantity import LENGTHS, force_in
 from graphkin.structure.groups import Group
 from graphkin.text import words
 from graphkin.text.errors import PageError, Problem, StructureError, WitnessError, message
@@ -144,15 +145,11 @@ def found(cells: Sequence[FieldNeed], rect: Rect) -> tuple[float, Sequence[Field
         if isfinite(kF):
             every = arrangements(len(some))
             return kF, some, max(every, key=lambda rows: slack(some, rows, wide, high, 1 / kF))
-    raise PageError(
-        Problem(
-            "sheet",
-            message(
-                "does not fit: {count} polygons of forces beside the mechanism", count=len(cells)
-            ),
-            message("a smaller mechanism"),
-            message("write a larger scale under [sheet]"),
-        )
+    raise PageError.at(
+        "sheet",
+        message("does not fit: {count} polygons of forces beside the mechanism", count=len(cells)),
+        message("a smaller mechanism"),
+        message("write a larger scale under [sheet]"),
     )
 
 
@@ -307,16 +304,14 @@ def proved_forces(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
     drawing = unplaced(mechanism, first)
     worst = max(verdict.largest_difference, abs(verdict.power), *differences(drawing, found))
     if worst > HELD:
-        raise WitnessError(
-            Problem(
-                "loads",
-                message(
-                    "polygons and equations of equilibrium differ by {difference}",
-                    difference=f"{worst:.1e}",
-                ),
-                message("at most {limit:.1e}", limit=HELD),
-                message("no sheet is handed out"),
-            )
+        raise WitnessError.at(
+            "loads",
+            message(
+                "polygons and equations of equilibrium differ by {difference}",
+                difference=f"{worst:.1e}",
+            ),
+            message("at most {limit:.1e}", limit=HELD),
+            message("no sheet is handed out"),
         )
     return replace(drawing, verdict=replace(first.verdict, largest_difference=worst))
 
@@ -328,15 +323,22 @@ def unplaced(mechanism: Mechanism, first: Drawing) -> ForceDrawing:
 
 
 def force_scales(mechanism: Mechanism, chosen: Scales) -> Scales:
-    """The scale factors of the sheets, ``chosen`` without forces, with those of the forces."""
-    mechanism = mechanism.measured
-    curves = curves_drawn(mechanism)
+    """The scale factors of the sheets, ``chosen`` without forces, with those of the forces.
+
+    Those of forces are round in the unit of results.
+    """
+    printed = mechanism.measured
+    base, own = mechanism.scene.base, printed.scene.base
+    metre, newton = float(LENGTHS[own] / LENGTHS[base]), float(force_in(own) / force_in(base))
+    in_results = replace(chosen, kL=chosen.kL / metre, metre=chosen.metre * metre)
+    curves = curves_drawn(printed)
     drawings = [
-        drawing(mechanism, kind, found, chosen, UNPROVED, words("en"), curves)
+        drawing(printed, kind, found, in_results, UNPROVED, words("en"), curves)
         for kind in SHEETS
-        if (found := targets_of(mechanism, kind))
+        if (found := targets_of(printed, kind))
     ]
-    return laid_out(unplaced(mechanism, drawings[0]), mechanism_field(drawings)).scales
+    found_at = laid_out(unplaced(printed, drawings[0]), mechanism_field(drawings)).scales
+    return replace(chosen, kF=found_at.kF * newton, k_lever=found_at.k_lever * metre)
 
 
 def with_force_plan(

@@ -11,7 +11,7 @@ from graphkin.documents.sentences import sentences
 from graphkin.drawing.field import Rect
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import are_clear, flowed, words_of
-from graphkin.text.errors import Message, PageError, Problem, message
+from graphkin.text.errors import Message, PageError, message
 
 HEIGHT, MOST, LEAST = 2.5, 5.6, 3.6
 """Height of lettering, and the largest and the least distance of its lines, in mm."""
@@ -243,7 +243,7 @@ def too_long(lines: int, hint: Message) -> PageError:
         message("does not fit: {lines} lines", lines=lines),
         message("a shorter construction"),
     )
-    return PageError(Problem("construction", found, expected, hint))
+    return PageError.at("construction", found, expected, hint)
 
 
 def distances() -> Iterator[float]:

@@ -12,7 +12,7 @@ from graphkin.documents.positions_sheet import at_scale, positions_page
 from graphkin.drawing.marks import Page
 from graphkin.mechanism import Mechanism
 from graphkin.text import Words
-from graphkin.text.errors import Problem, SceneError, message
+from graphkin.text.errors import SceneError, message
 
 Made = tuple[str, Callable[[str], Page]]
 """A kind of sheet, and a page that waits for its number."""
@@ -25,12 +25,10 @@ def motion_sheets(
     found = positions_of(mechanism, words)
     made = [*(position_sheets(found) if view == "positions" else diagram_sheets(found))]
     if not made:
-        raise SceneError(
-            Problem(
-                f"--view {view}",
-                message("nothing follows the driver, and [ask] has no velocity or acceleration"),
-                message("a link on the frame, a block, or a point that is asked for"),
-            )
+        raise SceneError.at(
+            f"--view {view}",
+            message("nothing follows the driver, and [ask] has no velocity or acceleration"),
+            message("a link on the frame, a block, or a point that is asked for"),
         )
     pages: dict[str, tuple[Page, ...]] = {}
     for number, (kind, page) in enumerate(made, 1):

@@ -16,7 +16,7 @@ from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.scale import Extent
 from graphkin.drawing.style import Ink
 from graphkin.mechanism import Mechanism, Which
-from graphkin.text.errors import PageError, Problem, SceneError, joined, message
+from graphkin.text.errors import PageError, SceneError, joined, message
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -63,23 +63,17 @@ def chosen(drawings: list[Drawing], which: Which) -> Drawing:
     from graphkin.construction.core.naming import has_plan
 
     if which not in get_args(Which):
-        raise SceneError(
-            Problem(
-                "plot",
-                message("{which!r} is no drawing", which=which),
-                joined(", ", get_args(Which)),
-            )
+        raise SceneError.at(
+            "plot", message("{which!r} is no drawing", which=which), joined(", ", get_args(Which))
         )
     for drawing in drawings:
         if which == "mechanism" or (which == drawing.kind and has_plan(drawing)):
             return drawing
-    raise SceneError(
-        Problem(
-            "plot",
-            message("nothing of the {which} plan is asked", which=which),
-            joined(", ", ("mechanism", *(each.kind for each in drawings if has_plan(each)))),
-            message("ask for {which} under [ask]", which=which),
-        )
+    raise SceneError.at(
+        "plot",
+        message("nothing of the {which} plan is asked", which=which),
+        joined(", ", ("mechanism", *(each.kind for each in drawings if has_plan(each)))),
+        message("ask for {which} under [ask]", which=which),
     )
 
 
@@ -139,5 +133,5 @@ def lettered(board: FieldContent, width: float, height: float) -> list[Mark]:
             found=problem.found,
         )
         hint = message("a larger figure, or fewer axes in it")
-        raise PageError(Problem("plot", found, problem.expected, hint))
+        raise PageError.at("plot", found, problem.expected, hint)
     return [*field.marks, *field.details]

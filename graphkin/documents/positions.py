@@ -208,7 +208,7 @@ def count_of(mechanism: Mechanism) -> int:
             "a whole number from {least} to {most}", least=FEWEST_STEPS, most=MOST_STEPS
         )
         found = message("{text} gives {value}", text=count.text, value=shortest(value))
-        raise SceneError(Problem("positions.count", found, expected))
+        raise SceneError.at("positions.count", found, expected)
     return int(value)
 
 
@@ -264,7 +264,7 @@ def checked(few: Cycle) -> float:
     """The largest difference of the residual check. Raises WitnessError where it disagrees."""
     found = few.witnessed
     if found.refused:
-        raise WitnessError(Problem("positions", message("the vector loops cannot check them")))
+        raise WitnessError.at("positions", message("the vector loops cannot check them"))
     fair = few.solution.margin >= FAIR
     if not (found.agrees | ~fair).all():
         place = f"positions[{int(np.flatnonzero(~found.agrees & fair)[0])}]"
@@ -272,7 +272,7 @@ def checked(few: Cycle) -> float:
         wrong = message(
             "construction and vector loops differ by {difference}", difference=difference
         )
-        raise WitnessError(Problem(place, wrong, hint=message("no sheet is handed out")))
+        raise WitnessError.at(place, wrong, hint=message("no sheet is handed out"))
     known = found.difference[fair & np.isfinite(found.difference)]
     return float(known.max(initial=0.0))
 

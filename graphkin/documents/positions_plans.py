@@ -161,7 +161,7 @@ def components(drawing: Drawing, marks: Sequence[Mark]) -> Iterator[str]:
     drawn = {style_class(mark) for mark in marks}
     said = [kind.pattern for kind in COMPONENTS if kind.look in drawn]
     if said:
-        yield "; ".join(map(drawing.words, said))
+        yield drawing.words.clauses(map(drawing.words, said))
 
 
 def without(found: PositionSet) -> Iterator[str]:

@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import data
 from graphkin.construction.core.layout import centre
-from graphkin.construction.core.naming import angle_symbol, length_scale
+from graphkin.construction.core.naming import angle_symbol, stated_scale
 from graphkin.construction.core.paper_canvas import above_foot, clipped_path
 from graphkin.construction.frame_over_motion import standing, travelling
 from graphkin.construction.links.link_shapes import (
@@ -166,7 +166,13 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
     by_time = found.cycle.sweep.driver is None
     given = data(own, solved=not by_time, laws=by_time)
     try:
-        return [*marks, *(in_table(paper, given, x, y) or in_lines(own, given, x, y, float))]
+        return [
+            *marks,
+            *(
+                in_table(paper, own.words("clause_mark"), given, x, y)
+                or in_lines(own, given, x, y, float)
+            ),
+        ]
     except PageError:
         elsewhere = drawing.words("positions.data_elsewhere")
         return [*marks, Text(x, y, elsewhere, "caption", LETTERS, name=NAME)]
@@ -235,7 +241,7 @@ def caption(found: PositionSet, drawing: Drawing) -> Iterator[Mark]:
     """The caption of the field: the scale, and what is drawn how."""
     words = drawing.words
     count = len(found.numbered) if is_whole(found.cycle) else len(found.numbered) - 1
-    scale, kL = words.decimal(drawing.scales.words), f"{length_scale(drawing)} {words.unit('m/mm')}"
+    scale, kL = words.decimal(drawing.scales.words), stated_scale(drawing)
     said = words("page.mechanism_heading", scale=scale, kL=kL)
     more = words("positions.strong", number=found.shown.name, count=count)
     text = f"{said};  {more}"
@@ -616,7 +622,7 @@ def places_table(
         name = angle_symbol(sweep.original, sweep.driver)
         head_of = f"{name} ({unit})"
     names, values = [each.name for each in some], numbers_of(found)
-    lines = flowed(said, "; ", right - left, 2.5)
+    lines = flowed(said, words("clause_mark"), right - left, 2.5)
     widest = PAD + max(extent(each, 2.5)[0] for each in (*names, *values))
     count = -(-len(names) // min(IN_ROW, int((right - left - FIRST) / widest)))
     room = foot - PROOF - top - 4.2 * len(lines)
@@ -664,16 +670,11 @@ def fitting(
                 break
 
 
-def mark_on_cam(found: PositionSet) -> Iterator[bool]:
-    """For each cam, whether its follower is drawn turned back on it."""
-    return (not cam.slides and cam.carrier == FRAME for cam in found.cycle.scene.cams.values())
-
-
 def legend(found: PositionSet, *, whole: bool) -> list[str]:
     """What the kinds of lines and the letters of the sheet mean; not ``whole`` lacks numbers."""
     words, travel = found.shown.alone.words, found.follower
     said: list[str] = [words("positions.paths")]
-    if any(mark_on_cam(found)):
+    if any(not cam.slides and cam.carrier == FRAME for cam in found.cycle.scene.cams.values()):
         said.append(words("positions.reversed"))
     dead = [*(each.name for each in found.dead), *(e.also for e in found.numbered if e.also)]
     if dead:

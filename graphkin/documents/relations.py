@@ -16,11 +16,10 @@ from operator import truediv
 from msgspec.structs import replace
 
 from graphkin.construction.cams.cam_centre import of_cams
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import components_on
 from graphkin.construction.core.drawn_scene import NOISE, Drawing
 from graphkin.construction.core.given_data import given
-from graphkin.construction.core.kind import GivenVector, construction
+from graphkin.construction.core.kind import GivenVector, auxiliary_plan, construction
 from graphkin.construction.core.link_poses import Disc
 from graphkin.construction.core.naming import drawn_in, scale_of, segment_of, sense
 from graphkin.construction.core.program import Part, Step, plan_vector, sign_of
@@ -141,7 +140,8 @@ def of_structure(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(f"*M* = {counted.words} ({pairs})")
     unseen = drawing.scene.unseen
     *groups, last = [group_words(words, group, unseen) for group in decompose(drawing.scene)]
-    first, *more = [*(f"{group};" for group in groups), last]
+    mark = words("clause_mark").rstrip()
+    first, *more = [*(f"{group}{mark}" for group in groups), last]
     yield Relation(first, more=tuple(more))
 
 
@@ -393,7 +393,8 @@ def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
 def data_line(drawing: Drawing, *, solved: bool) -> Relation:
     """The data, as one relation that may be broken after each piece."""
     *pieces, last = given(drawing, solved=solved)
-    first, *more = [f"{piece};" for piece in pieces] + [last]
+    mark = drawing.words("clause_mark").rstrip()
+    first, *more = [f"{piece}{mark}" for piece in pieces] + [last]
     return Relation(first, more=tuple(more))
 
 

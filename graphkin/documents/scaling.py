@@ -21,7 +21,7 @@ from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Sheet
 from graphkin.scene.quantity import LENGTHS, Quantity
 from graphkin.text import Words, words
-from graphkin.text.errors import Message, PageError, Problem, SceneError, message
+from graphkin.text.errors import Message, PageError, SceneError, message
 
 
 def targets_of(mechanism: Mechanism, kind: str) -> tuple[Target, ...]:
@@ -96,7 +96,7 @@ def stated(mechanism: Mechanism) -> Stated:
         key = "enlarge" if sheet.enlarge else "rule"
         found = message("the plans of this mechanism are not drawn by one crank")
         hint = message("leave it out: they are then drawn as large as they fit")
-        raise SceneError(Problem(f"sheet.{key}", found, message("one driver, which turns"), hint))
+        raise SceneError.at(f"sheet.{key}", found, message("one driver, which turns"), hint)
     return said
 
 
@@ -252,9 +252,7 @@ def refuse_dots(scales: Scales, sheets: Sequence[Drawing], stated: Sequence[str]
 def dot(key: str, found: Message, what: Message, least: float = LEAST) -> PageError:
     """The error of a scale factor that is too coarse, with a hint what to write."""
     hint = message("write {what}, or leave it out", what=what)
-    return PageError(
-        Problem(f"sheet.{key}", found, message("{least:g} mm or more", least=least), hint)
-    )
+    return PageError.at(f"sheet.{key}", found, message("{least:g} mm or more", least=least), hint)
 
 
 def not_above(number: float) -> float:

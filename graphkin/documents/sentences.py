@@ -11,7 +11,6 @@ from typing import NamedTuple
 from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import set_before
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan, falls_on_sources
 from graphkin.construction.core.component import (
     Component,
     TriangleComponent,
@@ -22,12 +21,18 @@ from graphkin.construction.core.component import (
 from graphkin.construction.core.crossings import Crossing, crossings, flattest
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, of_driver, other_parameters
-from graphkin.construction.core.kind import PlanPole, Sentence, construction
+from graphkin.construction.core.kind import (
+    PlanPole,
+    Sentence,
+    auxiliary_plan,
+    construction,
+    falls_on_sources,
+)
 from graphkin.construction.core.naming import TINY
 from graphkin.construction.core.pen import PRIME, image_name
 from graphkin.construction.core.program import Part, Plane, Step, is_set_on, plan_vector
 from graphkin.construction.core.quantities import FORCE, number_of, quantity_text, request
-from graphkin.construction.core.relation import Relation, answer, beside_plan
+from graphkin.construction.core.relation import Relation, answer, beside_plan, figure
 from graphkin.construction.forces.belt_force import belt_letter
 from graphkin.construction.forces.force_drawing import ForceDrawing
 from graphkin.construction.forces.loads import (
@@ -45,10 +50,11 @@ from graphkin.construction.step_marks import point_sentence
 from graphkin.drawing.marks import Mark, Text
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.symbol_markup import bar, escape, symbol, without_index
-from graphkin.scene.forces import ByDriver, Directed, Load, Size
+from graphkin.scene.forces import ByDriver, Components, Directed, Load, Size
 from graphkin.scene.link_points import ends_of, lettered
 from graphkin.scene.model import Link, Scene
-from graphkin.text import AND, names_in
+from graphkin.scene.quantity import SI, Quantity
+from graphkin.text import names_in
 
 
 class IndexNote(NamedTuple):
@@ -170,7 +176,7 @@ def set_on_mechanism(drawing: Drawing, turning: str, only: Collection[int] | Non
     ]
     if not lengths:
         return turning
-    turning = AND + turning if turning else ""
+    turning = words("clause_mark") + turning if turning else ""
     set_on = [name for name, length in lengths if length * 1000 >= TINY * drawing.scales.kL]
     if names := dict.fromkeys(set_on):
         key = "step.read-off" if len(names) > 1 else "step.read-off-one"
@@ -356,14 +362,16 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
     for link, mass in forces.masses.items():
         if mass.mass.is_zero():
             continue
-        found.append(valued(f"m_{link}", quantity_text(scene, words, mass.mass)))
+        found.append(valued(f"m_{link}", worked(drawing, mass.mass, "kg")))
         if mass.inertia is not None and not mass.inertia.is_zero():
-            found.append(valued(f"J_{link}", quantity_text(scene, words, mass.inertia)))
+            found.append(valued(f"J_{link}", worked(drawing, mass.inertia, "kg·m²")))
         fields = {"k": escape(link), "s": symbol(mass.centre)}
         remarks.append(Datum(words("page.centre_of_mass", **fields)))
     if forces.gravity is not None:
         pair = (number_of(scene, words, each) for each in forces.gravity)
-        found.append(Datum(name="*g*", value=f"{words.place(*pair)} {words.spelled('m/s^2')}"))
+        more = worked_pair(drawing, forces.gravity, "m/s^2")
+        unit = words.spelled(forces.gravity[0].written_unit.replace("²", "^2"))
+        found.append(Datum(name="*g*", value=f"{words.place(*pair)} {unit}{more}"))
     for load, name in zip(forces.loads, load_names(forces.loads), strict=True):
         if load.force is not None:
             found += force_datum(drawing, load, name)
@@ -373,9 +381,7 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
     for number, spring in enumerate(forces.springs, 1):
         own = str(number) if len(forces.springs) > 1 else ""
         ends = bar(*map(lettered, spring.ends))
-        found.append(
-            valued(f"c_{own}" if own else "c", quantity_text(scene, words, spring.stiffness))
-        )
+        found.append(valued(f"c_{own}" if own else "c", worked(drawing, spring.stiffness, "N/m")))
         found.append(valued(f"l_0{own}", quantity_text(scene, words, spring.free)))
         remarks.append(Datum(words("page.spring", bar=ends, c=symbol(f"c_{own}" if own else "c"))))
     for name, rolling in scene.belts:
@@ -394,7 +400,8 @@ def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
     assert force is not None
     if not isinstance(force, Directed):
         x, y = (number_of(scene, words, each) for each in force)
-        yield valued(f"P_{name}", f"{words.place(x, y)} {words.spelled('N')}")
+        unit = words.spelled(force[0].written_unit)
+        yield valued(f"P_{name}", f"{words.place(x, y)} {unit}{worked_pair(drawing, force, 'N')}")
         return
     size = given_size(drawing, force.size, f"P_{name}", "N")
     if not force.sense:
@@ -408,9 +415,29 @@ def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
 def given_size(drawing: Drawing, size: Size, name: str, unit: str) -> str:
     """A given number with its unit; one of a table as it is in this position."""
     if not isinstance(size, ByDriver):
-        return quantity_text(drawing.scene, drawing.words, size)
+        return worked(drawing, size, unit)
     assert isinstance(drawing, ForceDrawing)
     return f"{answer(drawing, drawing.by_table[name])} {drawing.words.unit(unit)}"
+
+
+def worked(drawing: Drawing, quantity: Quantity, unit: str) -> str:
+    """A number with its unit, and with that of the results where this is another one.
+
+    ``unit`` is its unit in newtons, kilograms and metres.
+    """
+    said = quantity_text(drawing.scene, drawing.words, quantity)
+    if SI[quantity.unit][0] == 1:
+        return said
+    value = float(quantity.si(drawing.scene.values))
+    return f"{said} = {figure(drawing, value)} {drawing.words.unit(unit)}"
+
+
+def worked_pair(drawing: Drawing, pair: Components, unit: str) -> str:
+    """Two components after a sign of equality in the unit of results, where that is another one."""
+    if SI[pair[0].unit][0] == 1:
+        return ""
+    x, y = (figure(drawing, float(each.si(drawing.scene.values))) for each in pair)
+    return f" = {drawing.words.place(x, y)} {drawing.words.unit(unit)}"
 
 
 def valued(name: str, value: str) -> Datum:

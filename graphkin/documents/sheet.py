@@ -18,7 +18,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
-from graphkin.construction.core.naming import has_plan, length_scale, name_of_sheet, scale_of
+from graphkin.construction.core.naming import has_plan, name_of_sheet, scale_of, stated_scale
 from graphkin.construction.core.paper_canvas import (
     PaperCanvas,
     Plot,
@@ -78,7 +78,7 @@ from graphkin.scene.house import THICK
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Link
 from graphkin.text import Words, names_in
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 
 BLANK = ". . . . . . . . ."
 """Room to write in for values that a task does not reveal."""
@@ -126,14 +126,14 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     A task leaves a factor open unless it states the factor itself.
     """
     words, scales, task = drawing.words, drawing.scales, view == "task"
+    kL = stated_scale(drawing)
+    if task:
+        kL = f"{BLANK} {kL.split()[-1]}"
     if kind == FORCE:
-        fields = {"scale": words.decimal(scales.words), "kL": length_scale(drawing)}
-        above = words("page.loads_heading", **fields | ({"kL": BLANK} if task else {}))
+        above = words("page.loads_heading", scale=words.decimal(scales.words), kL=kL)
         return above, words("page.force_heading", k=figure(drawing, scales.kF / 1000))
     beside = beside_plan(drawing, kind) if kind else ""
-    kL = f"{BLANK if task else length_scale(drawing)} {words.unit('m/mm')}" + (
-        f"; {beside}" if beside else ""
-    )
+    kL = words.clauses(filter(None, (kL, beside)))
     mechanism = words("page.mechanism_heading", scale=words.decimal(scales.words), kL=kL)
     if not kind:
         return mechanism, ""
@@ -220,10 +220,10 @@ def data_heading(
     ``spare`` is the height in mm that the drawings leave free below the captions. Many lines of
     data extend into it, and the captions move down. Raises PageError where the data do not fit.
     """
-    found = data_of(drawing, view)
+    found, mark = data_of(drawing, view), drawing.words("clause_mark")
     return (
-        in_table(drawing.paper, found, x, y)
-        or in_tables(drawing.paper, found, x, y, spare)
+        in_table(drawing.paper, mark, found, x, y)
+        or in_tables(drawing.paper, mark, found, x, y, spare)
         or in_lines(drawing, found, x, y, spare)
     )
 
@@ -237,8 +237,13 @@ def data_of(drawing: Drawing, view: str) -> Sequence[Datum]:
     return data(drawing, solved=view != "task", laws=True)
 
 
-def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> list[Mark]:
-    """A table of the values with the other data next to it; empty where there is no room."""
+def in_table(
+    paper: SheetPaper, mark: str, found: Sequence[Datum], x: float, y: float
+) -> list[Mark]:
+    """A table of the values with the other data next to it; empty where there is no room.
+
+    The other data are clauses with a ``mark`` between them.
+    """
     valued = [datum for datum in found if datum.value]
     said = [datum.remark for datum in found if datum.remark]
     widths = [*map(width_of, valued)]
@@ -251,7 +256,7 @@ def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> l
     room = paper.left[2] - 3 - left
     if not valued or room < max((extent(piece, LETTERS)[0] for piece in said), default=0.0):
         return []
-    lines = flowed(said, "; ", room, LETTERS)
+    lines = flowed(said, mark, room, LETTERS)
     leading, low = BESIDE.get(len(lines), (0.0, 0.0))
     if lines and not (leading and are_clear(lines, LETTERS, leading)):
         return []
@@ -265,7 +270,12 @@ def in_table(paper: SheetPaper, found: Sequence[Datum], x: float, y: float) -> l
 
 
 def in_tables(
-    paper: SheetPaper, found: Sequence[Datum], x: float, y: float, spare: Callable[[], float]
+    paper: SheetPaper,
+    mark: str,
+    found: Sequence[Datum],
+    x: float,
+    y: float,
+    spare: Callable[[], float],
 ) -> list[Mark]:
     """Tables of the values one below another, the other data in lines below them.
 
@@ -273,7 +283,7 @@ def in_tables(
     """
     valued = [datum for datum in found if datum.value]
     width, top = paper.left[2] - x - 3, y - ABOVE
-    lines = spread([d.remark for d in found if d.remark], "; ", width, LETTERS, CLOSE)
+    lines = spread([d.remark for d in found if d.remark], mark, width, LETTERS, CLOSE)
     widest = [*map(width_of, valued), *(extent(line, LETTERS)[0] for line in lines)]
     if not valued or max(widest) > width:
         return []
@@ -349,22 +359,21 @@ def in_lines(
     pieces = [f"{drawing.words('page.data')}{drawing.words('colon')}{first}", *pieces]
     paper = drawing.paper
     width = paper.left[2] - x - 3
-    parted = words_of("; ".join(pieces))
+    between = drawing.words("clause_mark")
+    parted = words_of(between.join(pieces))
     for i, (leading, room) in enumerate(looks(lowest(paper) - y, spare)):
-        for parts, mark in ((pieces, "; "), (parted, " "))[: 1 + (i > 1)]:
+        for parts, mark in ((pieces, between), (parted, " "))[: 1 + (i > 1)]:
             lines = spread(parts, mark, width, LETTERS, leading)
             if len(lines) <= room and all(extent(line, LETTERS)[0] <= width for line in lines):
                 return [
                     Text(x, y + row * leading, line, "caption", LETTERS, name=NAME)
                     for row, line in enumerate(lines)
                 ]
-    raise PageError(
-        Problem(
-            "data",
-            message("does not fit: {count} lines", count=len(lines)),
-            message("fewer lines above the drawings"),
-            message("shorten names and notes, or split the scene"),
-        )
+    raise PageError.at(
+        "data",
+        message("does not fit: {count} lines", count=len(lines)),
+        message("fewer lines above the drawings"),
+        message("shorten names and notes, or split the scene"),
     )
 
 
@@ -749,7 +758,8 @@ def writing(drawing: Drawing, view: str) -> Writing:
 def left_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     """The mechanism's field."""
     field = layout.mechanism
-    board = FieldContent(field.rect, unnamed=drawing.words("page.unnamed"))
+    words = drawing.words
+    board = FieldContent(field.rect, unnamed=words("page.unnamed"), between=words("clause_mark"))
     board.marks += headlines(drawing, layout, view)[0]
     if view == "task":
         mechanism_symbols.draw_frame(board, drawing, field)
@@ -838,7 +848,8 @@ def vectors(marks: Sequence[Mark]) -> list[Mark]:
 def right_board(drawing: Drawing, layout: Layout, view: str) -> FieldContent:
     """The plan's field."""
     field = layout.plan
-    board = FieldContent(field.rect, unnamed=drawing.words("page.unnamed"))
+    words = drawing.words
+    board = FieldContent(field.rect, unnamed=words("page.unnamed"), between=words("clause_mark"))
     board.marks += headlines(drawing, layout, view)[1]
     if drawing.kind == FORCE:
         from graphkin.documents.force_fields import draw_fields
@@ -970,15 +981,15 @@ def checked(drawing: Drawing) -> list[str]:
 
 def checked_lines(drawing: Drawing, width: float) -> list[str]:
     """The difference of the independent route, in as few lines of a width as hold it."""
-    return in_width(checked(drawing), width)
+    return in_width(checked(drawing), drawing.words("clause_mark"), width)
 
 
-def in_width(pieces: Sequence[str], width: float) -> list[str]:
+def in_width(pieces: Sequence[str], mark: str, width: float) -> list[str]:
     """Pieces in lines of a width, divided within a piece only where one is longer."""
-    lines = flowed(pieces, "; ", width, LETTERS)
+    lines = flowed(pieces, mark, width, LETTERS)
     if all(extent(line, LETTERS)[0] <= width for line in lines):
         return lines
-    return flowed(words_of("; ".join(pieces)), " ", width, LETTERS)
+    return flowed(words_of(mark.join(pieces)), " ", width, LETTERS)
 
 
 def construction_head(drawing: Drawing, x: float, y: float) -> Text:
@@ -1018,7 +1029,8 @@ def wanted(drawing: Drawing, x: float, y: float) -> tuple[list[Mark], set[Moved]
 def task_lines(drawing: Drawing, moved: set[Moved], width: float) -> list[str]:
     """The lines of a task in a width, an empty line between parts; moved parts are named."""
     elsewhere = drawing.words("page.moved")
-    lines = in_width([elsewhere] if Moved.ASKED in moved else asked_words(drawing), width)
+    mark = drawing.words("clause_mark")
+    lines = in_width([elsewhere] if Moved.ASKED in moved else asked_words(drawing), mark, width)
     links = members(drawing)
     if Moved.MEMBERS in moved:
         links = drawing.words("page.members", list=elsewhere)

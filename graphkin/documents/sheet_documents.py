@@ -106,12 +106,10 @@ def hand_out(
     mechanism = mechanism.spoken(language).measured
     spoken = language_of(mechanism, language)
     if mechanism.scene.sheet.sheets != len(SHEETS):
-        raise SceneError(
-            Problem(
-                "sheet.sheets",
-                message("one sheet for both plans is not drawn yet"),
-                message("2, or left out"),
-            )
+        raise SceneError.at(
+            "sheet.sheets",
+            message("one sheet for both plans is not drawn yet"),
+            message("2, or left out"),
         )
     drawings = drawn_of(mechanism, spoken)
     sheets = [
@@ -192,12 +190,8 @@ def language_of(mechanism: Mechanism, language: str | None) -> Words:
     """The words of a language with the scene's signs. Raises SceneError if it is unknown."""
     code = language or mechanism.scene.sheet.language
     if code not in LANGUAGES:
-        raise SceneError(
-            Problem(
-                "sheet.language",
-                message('"{code}" is not a language', code=code),
-                either(LANGUAGES),
-            )
+        raise SceneError.at(
+            "sheet.language", message('"{code}" is not a language', code=code), either(LANGUAGES)
         )
     return words(code, mechanism.scene.sheet.signs, mechanism.scene.base)
 
@@ -280,12 +274,10 @@ def drawings_of(
         if (found := targets_of(mechanism, kind))
     ]
     if not drawings:
-        raise SceneError(
-            Problem(
-                "ask",
-                message("asks for nothing that is drawn"),
-                message("velocities, accelerations, centres …"),
-            )
+        raise SceneError.at(
+            "ask",
+            message("asks for nothing that is drawn"),
+            message("velocities, accelerations, centres …"),
         )
     stand = None if held else mechanism_field(drawings)
     return [replace(each, stand=stand, again=i > 0) for i, each in enumerate(drawings)]
@@ -481,13 +473,14 @@ def data_and_tables(drawing: Drawing, view: str, moved: Set[Moved]) -> Iterator[
 def continued_lines(drawing: Drawing, view: str, moved: Set[Moved], x: float) -> list[str]:
     """The moved data, requests and links, in lines across a sheet from a place on."""
     words, width, lines = drawing.words, drawing.paper.left[2] - x - 3, list[str]()
+    mark = words("clause_mark")
     if Moved.DATA in moved:
         first, *others = (datum.said for datum in data_of(drawing, view))
-        lines += flowed([f"{words('page.data')}{words('colon')}{first}", *others], "; ", width, 2.5)
+        lines += flowed([f"{words('page.data')}{words('colon')}{first}", *others], mark, width, 2.5)
     if Moved.ASKED in moved:
         first, *others = asked_words(drawing)
         lines += flowed(
-            [f"{words('page.asked')}{words('colon')}{first}", *others], "; ", width, 2.5
+            [f"{words('page.asked')}{words('colon')}{first}", *others], mark, width, 2.5
         )
     if Moved.MEMBERS in moved:
         lines.append(members(drawing))
@@ -513,7 +506,7 @@ def one_sheet(drawing: Drawing, view: str, moved: Set[Moved], said: int) -> list
             y += LEADING
         if y > low + LEADING:
             found = message("does not fit: {count} lines of data", count=len(lines))
-            raise PageError(Problem("data", found, message("data for one sheet")))
+            raise PageError.at("data", found, message("data for one sheet"))
     top = y + BELOW
     right: Rect = (paper.second, top, paper.fields[2], low)
     if Moved.CONSTRUCTION in moved:

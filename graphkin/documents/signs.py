@@ -196,7 +196,7 @@ def at_foot(drawing: Drawing, space: Space, rates: Mapping[str, float]) -> Itera
     words = drawing.words
     colon = words("colon")
     said = (f"{drawing.symbol(n)}{colon}{sense_word(words, r)}" for n, r in rates.items())
-    caption = "; ".join(said)
+    caption = words.clauses(said)
     width, top, bottom = extent(caption, HEIGHT)
     half = width / 2, (bottom - top) / 2
     (left, high, right, low), air = space.rect, AIR + 0.1

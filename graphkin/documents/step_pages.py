@@ -43,7 +43,7 @@ from graphkin.documents.sheet import (
 )
 from graphkin.documents.signs import mechanism_signs, plan_signs
 from graphkin.drawing.field import Field, SheetPaper
-from graphkin.drawing.labels import BETWEEN, NOTE
+from graphkin.drawing.labels import NOTE
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import extent, flowed, flowed_pieces, words_of
 from graphkin.drawing.style import DRAWN, NOW
@@ -335,7 +335,11 @@ def noted(mark: Text, stage: int, telling: Mapping[str, int]) -> Iterator[Mark]:
     for i, part in enumerate(parts):
         if is_written[i]:
             before = extent("".join(each.joined for each in parts[: i + 1]), mark.height)[0]
-            ended = part.markup + BETWEEN.rstrip() if any(is_written[i + 1 :]) else part.markup
+            ended = (
+                part.markup + parts[i + 1].joint.rstrip()
+                if any(is_written[i + 1 :])
+                else part.markup
+            )
             aside = before - extent(part.markup, mark.height)[0]
             yield replace(mark, x=mark.x + aside, markup=ended)
 

@@ -83,6 +83,8 @@ CELLS: tuple[tuple[str, Rect, float], ...] = (
     ("sheet", (150, 26, 180, 36), 3.5),
 )
 OWNER = "legal_owner"
+STEP = " · "
+"""The sign between the number of a sheet and that of a step on it."""
 BESIDE = 1.0
 """Distance of a logo and of a header from the edges of their cell, in mm."""
 STUDENT = "student"
@@ -99,7 +101,7 @@ STUDENTS: tuple[tuple[str, Rect, float], ...] = (
 """The cells of a student's sheet, where the student's cell takes the place of the creator's."""
 
 
-HEADED = {OWNER: (0.0, 104.0), "document_type": (104.0, 146.0), "approved_by": (146.0, 180.0)}
+HEADED = {OWNER: (0.0, 93.0), "document_type": (93.0, 146.0), "approved_by": (146.0, 180.0)}
 """The sides of cells beside the wider cell of a school's header."""
 CROWDED = {
     OWNER: (0.0, 98.0),
@@ -394,8 +396,11 @@ LINES = (
 """The strong lines of form 1."""
 ROWS = ("Разраб.", "Пров.", "Т. контр.", "", "Н. контр.", "Утв.")
 """The first column of the signatures."""
-HEADS = (("Изм.", 3.5), ("Лист", 12.0), ("№ докум.", 28.5), ("Подп.", 47.5), ("Дата", 60.0))
-"""The heads of the columns, and their middles."""
+HEADS = (
+    *(("Изм.", 3.5, 1.8), ("Лист", 12.0, 2.5), ("№ докум.", 28.5, 2.5), ("Подп.", 47.5, 2.5)),
+    ("Дата", 60.0, 2.5),
+)
+"""The heads of the columns, their middles, and the heights of their letters."""
 ASIDE = (("Лит.", 142.5), ("Масса", 158.5), ("Масштаб", 176.0))
 """The heads above the stage, the mass and the scale, and their middles."""
 
@@ -418,14 +423,17 @@ def form_one(block: TitleBlock, x: float, y: float) -> Iterator[Mark]:
         yield LineMark(x + x1, y + y1, x + x2, y + y2, "frame title-block")
     for row in (*range(5, 20, 5), *range(30, 55, 5)):
         yield LineMark(x, y + row, x + 65.0, y + row, "border title-block")
-    for word, middle in HEADS:
-        yield Text(x + middle, y + 23.4, word, "title", 1.8, "middle")
+    for word, middle, size in HEADS:
+        yield Text(x + middle, y + 23.6, word, "title", size, "middle")
     for word, middle in ASIDE:
-        yield Text(x + middle, y + 18.4, word, "title", 1.8, "middle")
+        yield Text(x + middle, y + 18.6, word, "title", 2.5, "middle")
     for i, word in enumerate(filter(None, ROWS)):
         row = i + (i >= ROWS.index(""))
-        yield Text(x + 1.0, y + 28.4 + 5 * row, word, "title", 1.8)
-    number, _, total = block.sheet.partition("/")
+        yield Text(x + 1.0, y + 28.7 + 5 * row, word, "title", 2.5)
+    number, _, rest = block.sheet.partition("/")
+    total, _, step = rest.partition(STEP)
+    if step:
+        block = replace(block, document_type=f"{block.document_type}\n{step}")
     for word, left in ((f"Лист {number}", 136.5), (f"Листов {total}", 156.5)):
         yield Text(x + left, y + 38.6, word, "title", 2.5, name="sheet")
     for name, (left, top, right, bottom), most in gost_cells(block):

@@ -332,8 +332,6 @@ HELPERS = ("construction", OWN_LINES)
 
 NOTE = "note"
 """The name of the lines at the foot of a field."""
-BETWEEN = "; "
-"""Separator of the notes at the foot of a field."""
 
 
 class FootNote(Struct, frozen=True):
@@ -353,6 +351,7 @@ class FieldContent(Struct):
     - ``taken`` are boxes that labels avoid; ``notes`` are the notes at the field's foot.
     - ``lettered`` are the places of labels that are letters of points.
     - ``unnamed`` is the start of the note that lists vectors without room for their names.
+    - ``between`` separates the notes.
     - ``crowds`` are places where so much meets that they are shown enlarged.
     - ``dispensable`` labels are drawn where the others leave room nearby.
     - ``detailed`` fields may have details, which show their short vectors enlarged.
@@ -367,6 +366,7 @@ class FieldContent(Struct):
     notes: list[FootNote] = field(default_factory=list)
     lettered: dict[int, XY] = field(default_factory=dict)
     unnamed: str = ""
+    between: str = "; "
     crowds: list[XY] = field(default_factory=list)
     dispensable: list[Label] = field(default_factory=list)
     unplaced: list[Label] = field(default_factory=list)
@@ -423,7 +423,10 @@ class FieldContent(Struct):
                 break
             self.shorten([spot.free for spot in spots], meanings)
             foot = self.footed([*self.footnotes, *meanings])
-            if len(note_lines([*self.footnotes, *meanings], self.across)) > self.most_notes:
+            if (
+                len(note_lines([*self.footnotes, *meanings], self.between, self.across))
+                > self.most_notes
+            ):
                 self.labels = wished
                 foot, spots = in_turn(self, self.notes, wished)
                 break
@@ -530,7 +533,7 @@ class FieldContent(Struct):
         across = self.across
         found: list[tuple[int, list[Text]]] = []
         for width in (across, across / 2, across / 3):
-            lines = note_lines(notes, width)
+            lines = note_lines(notes, self.between, width)
             if (most := self.most_notes) < len(lines):
                 if found:
                     break
@@ -583,18 +586,20 @@ class NoteLine(NamedTuple):
     parts: tuple[SharedLetter, ...] = ()
 
 
-def note_lines(notes: Sequence[FootNote], width: float) -> list[NoteLine]:
+def note_lines(notes: Sequence[FootNote], between: str, width: float) -> list[NoteLine]:
     """Notes in lines of a width in mm, broken between notes if possible, else between words."""
     notes = listed_notes(notes)
-    lines = flowed_pieces([note.markup for note in notes], BETWEEN, width, LETTERS)
+    lines = flowed_pieces([note.markup for note in notes], between, width, LETTERS)
     if max((extent(line, LETTERS)[0] for line, _ in lines), default=0.0) <= width:
         owners, pieces = [*range(len(notes))], [note.markup for note in notes]
     else:
-        ended = [f"{note.markup}{BETWEEN.rstrip()}" for note in notes[:-1]] + [notes[-1].markup]
+        ended = [f"{note.markup}{between.rstrip()}" for note in notes[:-1]] + [notes[-1].markup]
         all_words = [(i, word) for i, said in enumerate(ended) for word in words_of(said)]
         owners, pieces = [i for i, _ in all_words], [word for _, word in all_words]
         lines = flowed_pieces(pieces, " ", width, LETTERS)
-    return [NoteLine(line, tuple(parts(notes, owners, pieces, held))) for line, held in lines]
+    return [
+        NoteLine(line, tuple(parts(notes, between, owners, pieces, held))) for line, held in lines
+    ]
 
 
 def listed_notes(notes: Sequence[FootNote]) -> list[FootNote]:
@@ -607,12 +612,16 @@ def listed_notes(notes: Sequence[FootNote]) -> list[FootNote]:
 
 
 def parts(
-    notes: Sequence[FootNote], owners: Sequence[int], pieces: Sequence[str], held: Sequence[int]
+    notes: Sequence[FootNote],
+    between: str,
+    owners: Sequence[int],
+    pieces: Sequence[str],
+    held: Sequence[int],
 ) -> Iterator[SharedLetter]:
     """The parts of the notes in a line of some pieces, by the notes' subjects."""
     for nth, (owner, run) in enumerate(groupby(held, lambda k: owners[k])):
-        said = " ".join(pieces[k] for k in run).removesuffix(BETWEEN.rstrip())
-        yield SharedLetter(notes[owner].of, said, BETWEEN if nth else "")
+        said = " ".join(pieces[k] for k in run).removesuffix(between.rstrip())
+        yield SharedLetter(notes[owner].of, said, between if nth else "")
 
 
 def free_ones(board: FieldContent, spots: Sequence[Spot]) -> list[Mark]:

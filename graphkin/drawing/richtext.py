@@ -130,7 +130,7 @@ STACKED = 2
 """Length of the longest index above which an exponent may be placed."""
 TOKEN = r"(?s)[_^](?:\{|\\.|.|$)|\\.|[^\\*_^}]+|."
 UNITS = (
-    r"(?:mm|cm|m|in|ft|s|rad|deg|rev/min|rot/min|мм|см|м|с|рад|об/мин)\b"
+    r"(?:mm|cm|m|in|ft|lbf|lb|s|rad|deg|rev/min|rot/min|мм|см|м|с|рад|об/мин)\b"
     r"|\((?:(?:mm|cm|m|in|ft)/s|(?:мм|см|м)/с)"
 )
 NUMBERED = (

@@ -140,6 +140,7 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
       before, as part of another group.
     - A way under the name of a wheel on a straight track refers to the wheel's group: a track on a
       known wheel has no way of its own.
+    - A way does not refer to a group whose closure has a number.
     - A way under a pin's name refers to the group that the pin joins, whatever is stated for its
       block.
     """
@@ -147,6 +148,9 @@ def speaks_of(name: str, branch: Side | Way | Closure, group: Group, loops: Equa
         return bool(group.slides) and any(joint.pin == name for joint in group.inner)
     stated = (loops.scene.branches.get(joint.pin) for joint in group.inner if joint.pin)
     if isinstance(branch, Way) and group.slides and any(isinstance(each, Way) for each in stated):
+        return False
+    numbered = (isinstance(loops.scene.branches.get(link), Closure) for link in group.links)
+    if isinstance(branch, Way) and any(numbered):
         return False
     own = {j: guide.turns_alike for j, guide in enumerate(loops.guides) if guide.block == name}
     if isinstance(branch, Way) and own:

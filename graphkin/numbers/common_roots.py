@@ -71,6 +71,10 @@ ROUNDED = 1e-14
 """Step below which such a share is found, but for rounding."""
 STILL = 1e-10
 """Step at which Newton's method has converged, in radians or shares of a way."""
+SETTLED = 1e-14
+"""The step that would come next at a limit, by how much steps shrink."""
+ROUNDING = 64 * 2.0**-52
+"""The misfit at a limit, as a share of its slopes times the trial values."""
 CLOSED = 1e-9
 """The largest misfit at a closure, as a share of its whole range."""
 
@@ -134,7 +138,7 @@ def corners_of(size: int) -> Array:
 
 def may_vanish(
     misfits: Sequence[tuple[Array, Array, Array]],
-    reaches: Sequence[tuple[Array, Array]],
+    reaches: Sequence[tuple[Array, Array, Array]],
     some: Array,
     whole: Array,
     ranges: Array,
@@ -143,9 +147,10 @@ def may_vanish(
     """The cells in which all misfits may vanish.
 
     The test uses the least and largest values at the corners and how far a misfit bends between
-    them, or the dyads' reaches where no corner can be drawn. ``some`` and ``whole`` mark cells of
-    which some or all corners can be drawn.
-    ``ranges`` are the ranges of the misfits.
+    them, or the dyads' reaches where no corner can be drawn. Where a reach is unknown at a corner,
+    with its largest size as the third number, it may change like a square root. ``some`` and
+    ``whole`` mark cells of which some or all corners can be drawn. ``ranges`` are the ranges of the
+    misfits.
     """
     bent = np.where(whole, BENT * side.max() ** 2, ROOT * np.sqrt(side.max()))
     slack, crossed, drawn = np.where(whole, SLACK, AT_EDGE), some, ~some
@@ -154,8 +159,9 @@ def may_vanish(
             more = (high - low) * slack + bent * most + BENDING * bend
             crossed = crossed & (low - more <= 0) & (high + more >= 0)
             drawn = drawn & np.isfinite(most)
-        for low, high in reaches:
-            drawn = drawn & ~(high + (high - low) * SLACK < 0)
+        for low, high, edge in reaches:
+            more = (high - low) * SLACK + edge * ROOT * np.sqrt(side.max())
+            drawn = drawn & ~(high + more < 0)
     found: Array = crossed | drawn
     return found
 
@@ -171,13 +177,19 @@ def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
     value = np.where(finite, value, np.nan)
     strides, parts = 3 ** np.arange(size)[::-1], list[Cells]()
     bends = [bending(each, size) for each in value]
+    most = [np.fmax.reduce(abs(each), axis=None, initial=0.0) for each in reach]
     for first in corners_of(size):
         at = (first + corners_of(size)) @ strides
         some, whole = finite[:, at].any(axis=1), finite[:, at].all(axis=1)
-        ends, reaches = (
-            [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in every]
-            for every in (value, reach)
-        )
+        ends = [(np.fmin.reduce(each[:, at], 1), np.fmax.reduce(each[:, at], 1)) for each in value]
+        reaches = [
+            (
+                np.fmin.reduce(each[:, at], 1),
+                np.fmax.reduce(each[:, at], 1),
+                edge * unknown[:, at].any(axis=1),
+            )
+            for each, unknown, edge in zip(reach, np.isnan(reach), most, strict=True)
+        ]
         misfits = [(*each, bend) for each, bend in zip(ends, bends, strict=True)]
         keep = may_vanish(misfits, reaches, some, whole, ranges[cells.row], half)
         parts.append(Cells(cells.row[keep], cells.middle[keep] + (first - 0.5) * half))
@@ -242,29 +254,42 @@ def closed_in(
 
 
 def roots_beside(missed: Misses, start: Array) -> Array:
-    """The limits of Newton's method from starts (K, n); NaN where it does not converge."""
-    share, left = start.copy(), np.arange(len(start))
-    for _ in range(ROUNDS):
-        way = steps_about(missed, left, share[left])
+    """The limits of Newton's method from starts (K, n); NaN where it does not converge.
+
+    A short step alone is no limit: beside a flat dyad misfits grow like a square root, and steps
+    may swing from side to side of the root.
+    """
+    share, left, last = start.copy(), np.arange(len(start)), np.ones(len(start))
+    for turn in range(ROUNDS):
+        way, rounded = steps_about(missed, left, share[left])
+        size = abs(way).max(axis=1, initial=0.0)
+        shrunk = size / last[left] if turn else 1.0
         share[left] += way
-        left = left[~(abs(way) < STILL).all(axis=1) & np.isfinite(way).all(axis=1)]
+        last[left] = size
+        closed = (size < STILL) & (rounded | (shrunk * size < SETTLED))
+        left = left[~closed & np.isfinite(size)]
         if not left.size:
             return share
     share[left] = np.nan
     return share
 
 
-def steps_about(missed: Misses, row: Array, share: Array) -> Array:
-    """The steps of Newton's method, with slopes from both sides; from one side at an edge."""
+def steps_about(missed: Misses, row: Array, share: Array) -> tuple[Array, Array]:
+    """The steps of Newton's method, and where what is left is only rounding.
+
+    Slopes come from both sides; from one side at an edge.
+    """
     size = share.shape[1]
     away = NARROW * np.vstack([np.zeros(size), np.eye(size), -np.eye(size)])
     value = missed_beside(missed, row, share, away)
     slope = np.moveaxis(value[1 : size + 1] - value[size + 1 :], 0, -1) / (2 * NARROW)
     way = solutions(slope, -value[0])
+    grain = (abs(slope) * np.maximum(abs(share), 1.0)[:, None]).sum(axis=2)
+    rounded = (abs(value[0]) <= ROUNDING * grain).all(axis=1)
     edge = np.isnan(way).any(axis=1) & np.isfinite(value[0]).all(axis=1)
     if edge.any():
         way[edge] = steps_of(missed, row[edge], share[edge], value[0, edge])
-    return way
+    return way, rounded
 
 
 def missed_beside(missed: Misses, row: Array, share: Array, away: Array) -> Array:

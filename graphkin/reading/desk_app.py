@@ -19,7 +19,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.kept_marks import KEPT_MARKS, read_kept_marks
+from graphkin.classroom.grading.grading_files import KEPT_MARKS, read_kept_marks
 from graphkin.drawing.field import A3, SheetPaper
 from graphkin.drawing.frame import STUDENT, TitleBlock, cells_of
 from graphkin.drawing.symbol_markup import symbol

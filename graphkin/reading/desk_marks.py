@@ -34,7 +34,7 @@ from graphkin.classroom.grading.feedback import (
     row_of,
 )
 from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded, Status
-from graphkin.classroom.grading.kept_marks import KeptReport
+from graphkin.classroom.grading.grading_files import KeptReport
 from graphkin.classroom.roster.students import signs
 from graphkin.reading.desk_queue import DeskItem, DeskQueue
 from graphkin.studio.session import PageRequestError

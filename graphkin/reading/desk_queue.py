@@ -24,7 +24,7 @@ from graphkin.classroom.grading.desk_rulings import (
 )
 from graphkin.classroom.grading.feedback import points_words, unread
 from graphkin.classroom.grading.graded import THOUSANDS, WITHHELD, EarnedMark, Graded, Status
-from graphkin.classroom.grading.kept_marks import KeptReport
+from graphkin.classroom.grading.grading_files import KeptReport
 from graphkin.drawing.richtext import plain
 from graphkin.text import Words
 

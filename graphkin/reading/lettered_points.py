@@ -226,8 +226,11 @@ class LetteredSheet(Struct, frozen=True, dict=True):
 
     @cached_property
     def on_mechanism(self) -> frozenset[int]:
-        """The steps that this sheet draws on the mechanism."""
-        return frozenset(number for number, _, _ in self.drawing.on_mechanism)
+        """The steps that this sheet draws on the mechanism, which is drawn anew on each sheet."""
+        places = (
+            n for n, step, _ in self.drawing.steps(Plane.MECHANISM) if step.part is Part.POSITION
+        )
+        return frozenset((*places, *(number for number, _, _ in self.drawing.on_mechanism)))
 
     @cached_property
     def leading(self) -> Mapping[int, tuple[Leading, ...]]:

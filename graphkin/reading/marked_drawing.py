@@ -46,11 +46,17 @@ STILL = gmtime(315532800)
 """The fixed date of every PDF, so that the same readings give the same bytes."""
 LINE, MARGIN, SIZE = 34, 30, 3.0
 """Height of a line of text and margin of a PDF page, in pixels; height of its capitals, in mm."""
+MOVED, SAME, DASH = 3.0, 1.0, 2.0
+"""In mm: a cause moves a point by at least MOVED; a line ends at a point within SAME; a dash."""
 ROOM, BESIDE, BARB, LETTER = 5.0, 3.0, 1.5, 4.0
 """In mm: from a frame's edge to the mark of a point outside it; from a mark to its label.
 
 Then the length of an arrow's barbs, and the height of a label's capitals.
 """
+
+
+PaperLine = tuple[float, float, float, float]
+"""Both ends of a line in mm of paper."""
 
 
 class MarkedSheet(Struct, frozen=True):
@@ -63,6 +69,8 @@ class MarkedSheet(Struct, frozen=True):
     """The remarks on the whole plan, on each point, and on other places, as markup with colours."""
     pins: tuple[DrawingRemark, ...] = ()
     paper: SheetPaper = A3
+    expected: tuple[PaperLine, ...] = ()
+    """Where the lines of a plan with a cause should be."""
 
 
 def drawings_of_class(
@@ -98,10 +106,27 @@ def marked_sheet(
     picture = (folder / f"{record.name}{PICTURE}").read_bytes()
     pins = tuple(remarks_on(record, settled))
     pinned = ((escape(f"{each.number}. {each.text}"), BLUE) for each in pins)
-    causes = () if record.cause is None else record.cause.sentences(words)
-    whole = ((cause, RED) for cause in causes)
+    expected = expected_lines(record, points)
+    causes = [] if record.cause is None else [*record.cause.sentences(words)]
+    whole = ((each, RED) for each in (*causes, *[words("marked.plan_expected")] * bool(expected)))
     lines = (*whole, *said_of(points, notes, words), *pinned)
-    return MarkedSheet(head, picture, points, lines, pins, record.on)
+    return MarkedSheet(head, picture, points, lines, pins, record.on, expected)
+
+
+def expected_lines(record: SheetRecord, points: Sequence[PointReading]) -> tuple[PaperLine, ...]:
+    """The key's lines to points that a cause of the whole plan moved; none without a cause."""
+    if record.cause is None:
+        return ()
+    moved = [
+        complex(*point.key)
+        for point in points
+        if point.at is not None and abs(complex(*point.at) - complex(*point.key)) > MOVED
+    ]
+    return tuple(
+        line
+        for line in record.key_lines
+        if any(abs(complex(*end) - key) < SAME for end in (line[:2], line[2:]) for key in moved)
+    )
 
 
 def remarks_on(record: SheetRecord, settled: SettledPoints) -> Iterator[DrawingRemark]:
@@ -174,7 +199,7 @@ class PointMark(Struct, frozen=True):
     at: tuple[float, float]
     colour: str
     label: Text
-    lines: tuple[tuple[float, float, float, float], ...]
+    lines: tuple[PaperLine, ...]
     """A line to where a wrong point should be, and the lines of the arrow."""
 
 
@@ -211,6 +236,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
             "size": [f"{side:g}" for side in (sheet.paper.width, sheet.paper.height)],
             "picture": b64encode(sheet.picture).decode("ascii"),
             "marks": [(mark, Markup(text_element(mark.label))) for mark in marks_on(sheet, words)],
+            "expected": sheet.expected,
             "pins": sheet.pins,
             "lines": sheet.lines,
         }
@@ -221,6 +247,7 @@ def as_page(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
         language=words.language,
         title=words("marked.title"),
         pinned=BLUE,
+        wrong=RED,
         legend=words("marked.legend"),
         sheets=shown,
     )
@@ -243,6 +270,15 @@ def typeset(pen: Any, text: Text, colour: str) -> None:
         pen.text(place, run.text, fill=colour, font=font, anchor="ls")
 
 
+def dashes(line: PaperLine) -> Iterator[PaperLine]:
+    """The pieces of a dashed line."""
+    start, end = complex(*line[:2]), complex(*line[2:])
+    long = abs(end - start)
+    for i in range(int(long / (2 * DASH)) + 1):
+        first, last = (start + (end - start) * min((2 * i + k) * DASH / long, 1) for k in (0, 1))
+        yield first.real, first.imag, last.real, last.imag
+
+
 def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
     """The drawings as a PDF with one page each."""
     from PIL import Image, ImageDraw, ImageFont
@@ -257,6 +293,8 @@ def as_pdf(sheets: Sequence[MarkedSheet], words: Words) -> bytes:
         page = Image.new("RGB", (width, height + 2 * MARGIN + LINE * len(rows)), "white")
         page.paste(image.resize((width, height)), (0, 0))
         pen = ImageDraw.Draw(page)
+        for x1, y1, x2, y2 in (piece for line in sheet.expected for piece in dashes(line)):
+            pen.line([part * DENSITY for part in (x1, y1, x2, y2)], fill=RED, width=2)
         for mark in marks_on(sheet, words):
             x, y = (part * DENSITY for part in mark.at)
             pen.ellipse((x - 12, y - 12, x + 12, y + 12), outline=mark.colour, width=4)

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
+from itertools import combinations
+from math import log
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
+from msgspec import Struct
 
 from graphkin.reading.drawn_ink import DENSITY, DrawnInk
 
@@ -40,6 +43,12 @@ UNLIKE = 0.1
 """The least probability that a piece is one of the letters looked for, or none."""
 FADES = 4.0
 """A letter so many mm farther away counts e times less."""
+EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 1.0, 2.5, 0.2, -1.5
+"""By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
+
+BOTH of the points saying so are enough; no point may say the opposite by more than AGAINST. Of a
+point and one of a trial plan, both must say so.
+"""
 
 
 def pieces(dark: Any) -> Iterator[tuple[tuple[int, int, int, int], Any]]:
@@ -145,3 +154,48 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
         fades = np.exp(-np.maximum(np.array([far for far, _ in beside]) - FADES, 0) / FADES)
         found = np.maximum(found, (likely[:, :-1] * fades[:, None]).max(axis=0))
     return dict(zip(letters, found.tolist(), strict=True))
+
+
+class WrittenPoint(Struct, frozen=True):
+    """A point beside which a letter is expected; ``tried``: a point of a trial plan."""
+
+    letter: str
+    place: complex
+    tried: bool = False
+
+
+def exchanged(
+    ink: DrawnInk, points: Mapping[int, WrittenPoint]
+) -> Iterator[tuple[int, int, float]]:
+    """The pairs of points whose letters seem to be exchanged, and by how much likelier they are.
+
+    A letter that a third point near by should have says nothing, and a clear pair comes before
+    others of its points.
+    """
+    letters = "".join(dict.fromkeys(each.letter for each in points.values()))
+    likely = {number: letters_near(ink, each.place, letters) for number, each in points.items()}
+
+    def side(one: int, other: int) -> float:
+        mine, letter = points[one], points[other].letter
+        found = log(likely[one][letter] / likely[one][mine.letter])
+        thirds = (each for number, each in points.items() if number not in (one, other))
+        theirs = any(
+            each.letter == letter and abs(each.place - mine.place) < NEAR for each in thirds
+        )
+        return min(found, 0.0) if theirs else found
+
+    found = []
+    for one, other in combinations(points, 2):
+        both = points[one], points[other]
+        if both[0].letter == both[1].letter or all(each.tried for each in both):
+            continue
+        sides = side(one, other), side(other, one)
+        gain = sum(sides)
+        two = gain < EXCHANGED or any(each.tried for each in both)
+        if min(sides) >= (BOTH if two else AGAINST):
+            found.append((one, other, gain))
+    explained = set[int]()
+    for one, other, gain in sorted(found, key=lambda each: -each[2]):
+        if explained.isdisjoint((one, other)):
+            yield one, other, gain
+            explained.update((one, other) if gain > CLEARLY_EXCHANGED else ())

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from itertools import combinations
-from math import log
 from typing import Any
 
 import numpy as np
@@ -22,7 +20,12 @@ from graphkin.numbers.plane import Line, Vector
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.lettered_points import SHORT, Arrow, Leading, LetteredSheet
 from graphkin.reading.plan_causes import PlanCause, similarity_of
-from graphkin.reading.point_letters import ALPHABET, letters_near
+from graphkin.reading.point_letters import (
+    ALPHABET,
+    CLEARLY_EXCHANGED,
+    WrittenPoint,
+    exchanged,
+)
 from graphkin.reading.point_reading import Doubt, PointReading, ReadVerdict, pair
 from graphkin.reading.point_search import (
     AGREED,
@@ -74,11 +77,6 @@ FULLY = 0.97
 """The drawn share of many lines that meet where a point was only vaguely expected."""
 WHOLE = 0.9
 """The drawn share of a point's lines that is needed for it to count without a question."""
-EXCHANGED, CLEARLY_EXCHANGED, BOTH, AGAINST = 1.0, 2.5, 0.2, -1.5
-"""By how much likelier, as a logarithm, two letters are exchanged: asked, and proposed as wrong.
-
-BOTH of the points saying so are enough; no point may say the opposite by more than AGAINST.
-"""
 SHORTEST = 1e-3
 """Places closer than this, in mm, coincide."""
 FLAT = 0.2
@@ -192,29 +190,26 @@ class PointReader(PointSearch):
 
         *Wrong* is proposed, each at the other's place, where both letters are clearly read.
         """
-        steps = self.sheet.exact.program.steps
-        lettered = {
-            number: reading.name[0]
+        steps, plane = self.sheet.exact.program.steps, self.sheet.drawing.plane
+        points = {
+            number: WrittenPoint(reading.name[0], self.own[number])
             for number, reading in self.readings.items()
             if reading.verdict in ("right", "follows")
-            and steps[number].plane is self.sheet.drawing.plane
+            and steps[number].plane is plane
             and steps[number].name
-            and reading.name[0] in ALPHABET
         }
-        letters = "".join(dict.fromkeys(lettered.values()))
-        likely = {n: letters_near(self.ink, self.own[n], letters) for n in lettered}
-        for one, other in combinations(likely, 2):
-            mine, others = self.readings[one], self.readings[other]
-            sides = log_ratio(likely[one], others, mine), log_ratio(likely[other], mine, others)
-            gain = sum(sides)
-            if min(sides) < (AGAINST if gain >= EXCHANGED else BOTH):
-                continue
+        for number, place in self.tried_points(plane).items():
+            points[number] = WrittenPoint(str(steps[number].name)[0], place, tried=True)
+        written = {number: each for number, each in points.items() if each.letter in ALPHABET}
+        for one, other, gain in exchanged(self.ink, written):
             for number, there in ((one, other), (other, one)):
-                reading = self.readings[number]
+                reading = self.readings.get(number)
+                if reading is None:
+                    continue
+                place = written[there].place
                 if gain > CLEARLY_EXCHANGED and reading.verdict != "wrong":
-                    place = pair(self.own[there])
-                    off = round(abs(self.own[there] - complex(*reading.own)), 3)
-                    reading = replace(reading, at=place, off=off, verdict="wrong")
+                    off = round(abs(place - complex(*reading.own)), 3)
+                    reading = replace(reading, at=pair(place), off=off, verdict="wrong")
                 self.readings[number] = reading.doubted("letter")
 
     def ended(self, number: int, reading: PointReading) -> PointReading:
@@ -653,11 +648,6 @@ class PointReader(PointSearch):
                     pending.append(arg)
         by_hand = {self.sheet.found_by[arg] for arg in found & self.sheet.found_by.keys()}
         return frozenset(found | by_hand - {number})
-
-
-def log_ratio(likely: Mapping[str, float], one: PointReading, other: PointReading) -> float:
-    """How much likelier the letter of one point is than that of another, as a logarithm."""
-    return log(likely[one.name[0]] / likely[other.name[0]])
 
 
 def forecast_points(sheet: LetteredSheet, pencil: Pencil) -> tuple[PointReading, ...]:

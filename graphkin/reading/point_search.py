@@ -17,6 +17,7 @@ import numpy as np
 from msgspec import Struct
 
 from graphkin.accuracy.pencil import Pencil, step_drawn
+from graphkin.construction.core.program import Plane
 from graphkin.drawing.field import Rect
 from graphkin.numbers.plane import Line
 from graphkin.reading.drawn_ink import COVERED, PAPER, PITCH, DrawnInk, InkLine
@@ -607,7 +608,9 @@ class PointSearch:
         ends = self.known_ends(number)
         crossed = are_crossing(ends, where.middle)
         places = self.candidates(number, ends, crossed)
-        taken = [*self.own.values(), *ends, *self.tried_points(number), besides]
+        plane = self.sheet.exact.program.steps[number].plane
+        tried = self.tried_points(plane).values()
+        taken = [*self.own.values(), *ends, *tried, besides]
         plausible = [
             place
             for place in places
@@ -619,7 +622,7 @@ class PointSearch:
             ((self.led_to(number, place, ends, crossed), place) for place in plausible),
             key=lambda each: -each[0] + 0.002 * abs(each[1] - where.middle),
         )
-        tried: list[tuple[float, LinesCrossing]] = []
+        scored: list[tuple[float, LinesCrossing]] = []
         for roughly, rough in first[:TRIED]:
             if roughly < DRAWN:
                 break
@@ -632,20 +635,20 @@ class PointSearch:
             led = self.led_to(number, place, ends, crossed)
             score = led + self.follows(number, place, ends) - 0.003 * abs(place - where.middle)
             if score > ENOUGH:
-                tried.append((score, found))
-        return max(tried, key=lambda each: each[0])[1] if tried else None
+                scored.append((score, found))
+        return max(scored, key=lambda each: each[0])[1] if scored else None
 
-    def tried_points(self, number: int) -> list[complex]:
-        """The expected places of lettered points of trial plans, to which lines there belong."""
+    def tried_points(self, plane: Plane) -> dict[int, complex]:
+        """The expected places of lettered points of trial plans, by step; lines belong to them."""
         steps, values = self.sheet.exact.program.steps, self.sheet.exact.trace.values
-        return [
-            complex(np.ravel(self.sheet.place(other, self.next[other]))[0])
-            for other, value in values.items()
-            if steps[other].aside is not None
-            and steps[other].name
+        return {
+            number: complex(np.ravel(self.sheet.place(number, self.next[number]))[0])
+            for number, value in values.items()
+            if steps[number].aside is not None
+            and steps[number].name
             and isinstance(value, complex)
-            and steps[other].plane is steps[number].plane
-        ]
+            and steps[number].plane is plane
+        }
 
     def follows(self, number: int, place: complex, ends: Sequence[complex]) -> float:
         """How well what would follow from a place is drawn; ALONE or more if its lines are."""

@@ -65,6 +65,10 @@ vector's tail.
 """
 PASSED = 2.8, 3.8
 """Where a head beyond a point, in mm, is no ring about the point, though not clearly elsewhere."""
+OVERSHOT, UNDERSHOT = (NEAR, 6.0), (-6.0, -2.2)
+"""Where a head next to a point, in mm beyond it, is asked about: other heads at the point and lines
+that cross there may look like a head at the point, and hide most of the head beside it.
+"""
 SHORTEST = 9.0
 """Vectors shorter than this, in mm, have heads too small to be read."""
 NEAREST, FARTHEST = 0.3, 1.9
@@ -226,7 +230,11 @@ def vector_end(
     likely = back.max() >= TURNED if alike or shared else steady(back).max() >= HEADED
     at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
-    rivalled = ((along_line or shared) and elsewhere) or (here < OWN and there.max() >= HEADED)
+    rivalled = (
+        ((along_line or shared) and elsewhere)
+        or (here < OWN and there.max() >= HEADED)
+        or (along_line and is_beside(share, along - long, [o.real - long for o in others]))
+    )
     doubled = bool((at_tail and not turned) or (rivalled and head is None))
     only = here >= LIKELY and here > max(float(steady(there).max()), unsure) + LEAD
     past = (along - long >= PASSED[0]) & (along - long <= PASSED[1])
@@ -246,6 +254,22 @@ def vector_end(
     unbroken = drawn(ink, tip, way, UNBROKEN, pale) >= RUNS_ON
     runs_on = not (shared or certain) and beyond >= RUNS_ON and unbroken
     return VectorEnd(head, turned, doubled, runs_on, before < STOPS, not ended)
+
+
+def is_beside(share: Any, off: Any, others: Sequence[float]) -> bool:
+    """Whether a head next to a point is drawn as well as the one that seems to be there.
+
+    ``share`` is the drawn share of a head at each distance ``off`` beyond the point, in mm;
+    ``others`` are the distances of other points, to which a head may belong. A ring without a head
+    looks like a head beyond it.
+    """
+    here = float(share[abs(off) <= NEAR].max())
+    free = np.all([abs(off - each) > FREE for each in others], axis=0) if others else True
+    over = np.where(free & (off > OVERSHOT[0]) & (off <= OVERSHOT[1]), share, -1.0)
+    under = np.where(free & (off >= UNDERSHOT[0]) & (off < UNDERSHOT[1]), share, -1.0)
+    close = over[off <= CLEAR].max() >= CERTAIN or (here < CERTAIN and over.max() >= HEADED)
+    behind = LIKELY <= here < CERTAIN and steady(under).max() >= CERTAIN
+    return bool((here >= OWN and close) or behind)
 
 
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:

@@ -90,6 +90,17 @@ class Table:
     def at(self, key: str) -> str:
         return f"{self.place}.{shown_key(key)}" if self.place else shown_key(key)
 
+    def wrong(
+        self,
+        key: str,
+        found: Message,
+        expected: Message = NO_WORDS,
+        hint: Hint = NO_WORDS,
+        changes: tuple[Change, ...] = (),
+    ) -> None:
+        """Note a problem of a key."""
+        self.findings.add(self.at(key), found, expected, hint, changes)
+
     def take(self, key: str) -> object:
         """The raw value of a key, or None."""
         self.known.append(key)
@@ -105,7 +116,7 @@ class Table:
         raw = self.take(key)
         if raw is None or isinstance(raw, bool):
             return raw is True
-        self.findings.add(self.at(key), shown(raw), message("true or false"))
+        self.wrong(key, shown(raw), message("true or false"))
         return False
 
     def choice(self, key: str, words: tuple[str, ...], default: str = "") -> str:
@@ -121,14 +132,14 @@ class Table:
             if isinstance(raw, str):
                 hint = nearest(raw, words) or abbreviated(raw, words)
             found = message("is missing") if raw is None else shown(raw)
-            self.findings.add(self.at(key), found, listed(words), hint)
+            self.wrong(key, found, listed(words), hint)
         return default or words[0]
 
     def table(self, key: str) -> Table:
         """A table within this one; an empty table where the key is absent."""
         raw = self.take(key)
         if raw is not None and not isinstance(raw, dict):
-            self.findings.add(self.at(key), shown(raw), message("a table"))
+            self.wrong(key, shown(raw), message("a table"))
         return Table(self.at(key), raw if isinstance(raw, dict) else {}, self.findings)
 
     def finish(self) -> None:
@@ -137,7 +148,7 @@ class Table:
             if key not in self.known:
                 misplaced = self.place and key in WHOLE
                 hint = ABOVE if misplaced else nearest(key, self.known)
-                self.findings.add(self.at(key), message("unknown key"), listed(self.known), hint)
+                self.wrong(key, message("unknown key"), listed(self.known), hint)
 
 
 def plain_text(place: str, raw: object, findings: Findings) -> str:

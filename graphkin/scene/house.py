@@ -182,7 +182,7 @@ def thick(table: Table, key: str, folder: str) -> float:
     found = THICK if raw is None else number_of(raw)
     if found not in GROUPS:
         expected = message("one of {names}", names=", ".join(f"{each:g}" for each in GROUPS))
-        table.findings.add(table.at(key), shown(raw), expected)
+        table.wrong(key, shown(raw), expected)
         return THICK
     return found
 
@@ -330,8 +330,8 @@ HOUSE_KEYS = (
         "results",
         results,
         f"the unit of lengths in results: {quoted(RESULTS)}; speeds are per s. By default inches"
-        " for a scene in inches, feet for one in feet, else metres. Forces are in newtons, so a"
-        " scene with masses or loads has metres",
+        " for a scene in inches, feet for one in feet, else metres. Forces are in lbf with inches"
+        " or feet, else in N",
         '"scene"',
         "results",
     ),
@@ -467,7 +467,7 @@ def read_signs(holder: Table, key: str, default: SchoolSigns = USUAL) -> SchoolS
         sign = table.text(name)
         if sign and not re.fullmatch(SIGN, sign):
             expected = message("one to four letters, such as {sign}", sign=getattr(USUAL, name))
-            table.findings.add(table.at(name), shown(sign), expected)
+            table.wrong(name, shown(sign), expected)
         elif sign:
             own[name] = sign.replace("'", "′")
     table.finish()

@@ -72,6 +72,14 @@ class Measures:
             return read
         return exact(1, unit, place)
 
+    def mechanical(self, unit: str) -> str:
+        """A unit of forces or masses as the scene writes it: lbf·in for N·m."""
+        if self.units.get("force", "N") == "N":
+            return unit
+        for si, own in (("m", self.units["length"]), ("N", self.units["force"]), ("kg", "lb")):
+            unit = unit.replace(si, own)
+        return unit
+
     def length(self, place: str, raw: object, *, positive: bool = False) -> Quantity:
         """A length in the scene's unit."""
         return self.number(place, raw, self.units["length"], positive=positive)

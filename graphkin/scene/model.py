@@ -18,6 +18,7 @@ from graphkin.numbers.arithmetic import FLOAT, Kind, Point
 from graphkin.scene.expression import TIME
 from graphkin.scene.house import FRAMES, PLAIN, USUAL_PAPER, House
 from graphkin.scene.quantity import LENGTHS, Quantity, combined, in_unit
+from graphkin.text import IMPERIAL
 from graphkin.text.errors import Message, message
 from graphkin.text.school_signs import USUAL, SchoolSigns
 from graphkin.text.tables import listed
@@ -618,12 +619,10 @@ def quantities_within(part: object) -> Iterator[Quantity]:
             yield from quantities_within(each)
 
 
-IMPERIAL = ("in", "ft")
-"""The units of length whose results are printed in them, unless others are stated."""
 HALVED = (1.0, 2.0, 4.0, 8.0)
 """The first digits of the scales of drawings in inches or feet: full, half, quarter, eighth."""
-LENGTHY = ("frame", "links", "drivers", "near")
-"""The parts of a scene that have lengths."""
+MEASURED = ("frame", "links", "drivers", "near", "forces")
+"""The parts of a scene that have lengths, forces and masses."""
 
 
 def rebased(part: Any, base: str) -> Any:
@@ -681,20 +680,18 @@ class Scene(Struct, frozen=True, dict=True):
     def unit_of_results(self) -> str:
         """The unit of length in which results are printed: as stated, else inches of inches.
 
-        Forces are in newtons, so the results of a scene with forces are in metres.
+        With inches or feet, forces are in pounds-force, otherwise in newtons.
         """
-        if self.forces is not None:
-            return "m"
         own = self.units["length"]
         usual = own if own in IMPERIAL else "m"
         return {"": usual, "SI": "m", "scene": own}.get(self.results, self.results)
 
     def computed_in(self, base: str) -> Scene:
-        """The same scene with its lengths computed in another unit; without its forces."""
+        """The same scene with its lengths, forces and masses computed in the system of a unit."""
         if base == self.base:
             return self
-        parts = {name: rebased(getattr(self, name), base) for name in LENGTHY}
-        return replace(self, **parts, base=base, forces=None)
+        parts = {name: rebased(getattr(self, name), base) for name in MEASURED}
+        return replace(self, **parts, base=base)
 
     @property
     def unit_length(self) -> float:

@@ -66,13 +66,13 @@ def read_parameter(name: str, table: Table, place: str) -> Parameter:
     table.finish()
     parameter = Parameter(name, value, least, most, step)
     if least and most and plain(least) > plain(most):
-        table.findings.add(
-            table.at("min"),
+        table.wrong(
+            "min",
             message("{least} is above max", least=least.text),
             message("at most {most}", most=most.text),
         )
     elif step and plain(step) <= 0:
-        table.findings.add(table.at("step"), verbatim(step.text), message("a number above 0"))
+        table.wrong("step", verbatim(step.text), message("a number above 0"))
     else:
         table.findings.extend(out_of_range(parameter, plain(value), place))
     return parameter

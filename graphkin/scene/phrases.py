@@ -304,7 +304,7 @@ Names = Mapping[str, str]
 """Names for links, by their names in the scene."""
 
 
-def read_names(table: Table, findings: Findings) -> dict[str, Names]:
+def read_names(table: Table) -> dict[str, Names]:
     """The names per language, from a table such as ``it = { boom = "braccio" }``."""
     found: dict[str, Names] = {}
     for language in (language for language in LANGUAGES if language in table):
@@ -315,7 +315,7 @@ def read_names(table: Table, findings: Findings) -> dict[str, Names]:
                 expected = message(
                     "a letter, then letters, digits or _, at most {most}", most=LONGEST_NAME
                 )
-                findings.add(own.at(link), shown(name), expected)
+                own.wrong(link, shown(name), expected)
     table.known.extend(LANGUAGES)
     table.finish()
     return found

@@ -30,6 +30,7 @@ from graphkin.scene.expression import (
     with_error,
 )
 from graphkin.scene.findings import shown
+from graphkin.text import IMPERIAL
 from graphkin.text.errors import Message, Problem, SceneError, message
 
 LENGTHS = {
@@ -39,6 +40,13 @@ LENGTHS = {
     "in": Fraction(254, 10000),
     "ft": Fraction(3048, 10000),
 }
+POUND = Fraction("0.45359237")
+"""A pound in kilograms."""
+STANDARD_GRAVITY = Fraction("9.80665")
+"""The acceleration in m/s² at which a pound weighs a pound-force."""
+FORCES = {"N": Fraction(1), "lbf": POUND * STANDARD_GRAVITY}
+MASSES = {"kg": Fraction(1), "lb": POUND}
+"""The units of forces in newtons, and of masses in kilograms."""
 IN = "|"
 """The sign between a unit of length and the unit in which it is computed, other than metres."""
 TURNS = {"rad": (Fraction(1), False), "deg": (Fraction(1, 180), True)}
@@ -53,8 +61,33 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     for base, metres in LENGTHS.items():
         bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
     rates = {f"{unit}/{s}": each for s in ("s", "s²", "s³") for unit, each in bases.items()}
-    others = dict.fromkeys(("", "s", "kg", "kg·m²", "N", "N·m", "N/m"), (Fraction(1), False))
+    others = dict.fromkeys(("", "s"), (Fraction(1), False)) | mechanical_factors()
     return bases | rates | others | {"rev/min": (Fraction(1, 30), True)}
+
+
+def mechanical_factors() -> dict[str, tuple[Fraction, bool]]:
+    """The size of each unit of forces, moments, masses, inertias and stiffnesses.
+
+    A unit such as kg|in is computed in the coherent system of inches and pounds-force.
+    """
+    found: dict[str, Fraction] = {}
+    for base, metre in LENGTHS.items():
+        tag, newton = "" if base == "m" else f"{IN}{base}", force_in(base)
+        for force, one in FORCES.items():
+            found[f"{force}{tag}"] = one / newton
+            for length, own in LENGTHS.items():
+                found[f"{force}{tag}·{length}"] = one * own / (newton * metre)
+                found[f"{force}{tag}/{length}"] = one / own * metre / newton
+        for mass, one in MASSES.items():
+            found[f"{mass}{tag}"] = one * metre / newton
+            for length, own in LENGTHS.items():
+                found[f"{mass}{tag}·{length}²"] = one * own**2 / (metre * newton)
+    return {unit: (size, False) for unit, size in found.items()}
+
+
+def force_in(base: str) -> Fraction:
+    """The unit of forces in newtons that goes with a unit of lengths."""
+    return FORCES["lbf" if base in IMPERIAL else "N"]
 
 
 SI = si_factors()
@@ -195,11 +228,13 @@ def plain_unit(unit: str) -> str:
 
 
 def in_unit(unit: str, base: str) -> str:
-    """A unit of length, speed or acceleration as computed in another unit; others unchanged."""
-    length, slash, rest = plain_unit(unit).partition("/")
-    if length not in LENGTHS:
+    """A unit as computed in another unit of length; one without length, force or mass unchanged."""
+    plain = plain_unit(unit)
+    first = re.match("[A-Za-z]*", plain)
+    assert first is not None
+    if first[0] not in {*LENGTHS, *FORCES, *MASSES}:
         return unit
-    return f"{length}{slash}{rest}" if base == "m" else f"{length}{IN}{base}{slash}{rest}"
+    return plain if base == "m" else f"{first[0]}{IN}{base}{plain[first.end() :]}"
 
 
 def reckoned(tree: Tree, values: Mapping[str, Any], kind: Kind) -> Any:

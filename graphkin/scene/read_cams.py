@@ -205,9 +205,7 @@ def with_cams(
             continue
         raw = table.take("cam")
         if not isinstance(raw, dict):
-            measures.findings.add(
-                table.at("cam"), shown(raw), message("a table {{ on = …, law = [ … ] }}")
-            )
+            table.wrong("cam", shown(raw), message("a table {{ on = …, law = [ … ] }}"))
             continue
         count += 1
         own = Table(table.at("cam"), raw, measures.findings)
@@ -252,16 +250,14 @@ def read_cam(
         hint = message(
             "a plate lifts a roller or a knife, and a straight flank under a face is a guide on it"
         )
-        findings.add(
-            table.at("tip"), message("a flat face on a plate that slides"), listed(TIPS[:2]), hint
-        )
+        table.wrong("tip", message("a flat face on a plate that slides"), listed(TIPS[:2]), hint)
     base = measures.length(table.at("base"), table.take("base"), positive=True)
     raw = table.take("roller")
     if tip == "roller" and raw is None:
-        findings.add(table.at("roller"), message("is missing"), message("the radius of the roller"))
+        table.wrong("roller", message("is missing"), message("the radius of the roller"))
     elif tip != "roller" and raw is not None:
         said, change = message("a roller on a {tip} follower", tip=tip), Written('"roller"', "tip")
-        findings.add(table.at("roller"), said, message('tip = "roller"'), changes=(change,))
+        table.wrong("roller", said, message('tip = "roller"'), changes=(change,))
     if tip == "roller" and raw is not None:
         roller = measures.length(table.at("roller"), raw, positive=True)
     else:
@@ -282,17 +278,15 @@ def read_cam(
     table.finish()
     if not is_name(centre) or any(centre in link.points for link in links.values()):
         taken = message("{centre} for the centre of curvature", centre=shown(centre))
-        findings.add(table.at("centre"), taken, message("the name of a new point"))
+        table.wrong("centre", taken, message("the name of a new point"))
     if not is_link_name(name) or name in links:
-        findings.add(
-            table.at("link"), message("{name}", name=shown(name)), message("the name of a new link")
-        )
+        table.wrong("link", message("{name}", name=shown(name)), message("the name of a new link"))
     if len(findings.problems) > before or on is None or seat is None:
         return None
     point, lever = found or (links[follower].points[0], None)
     if lever and lever.pin == seat.pivot:
-        findings.add(
-            table.at("on"),
+        table.wrong(
+            "on",
             message("both links turn about {pivot}", pivot=seat.pivot),
             message("a cam on another pin"),
         )
@@ -333,9 +327,7 @@ def conjugate_of(
     own.finish()
     free = [p for p in links[follower].points if p != first and p not in held]
     if at not in free:
-        findings.add(
-            own.at("at"), shown(at), listed(free) or message("another point of the follower")
-        )
+        own.wrong("at", shown(at), listed(free) or message("another point of the follower"))
         return None
     return Conjugate(at, roller)
 
@@ -371,7 +363,7 @@ def lever_of(
     raw = table.take("face")
     if raw is not None and tip != "flat":
         found, change = message("a face on a {tip} follower", tip=tip), Written('"flat"', "tip")
-        findings.add(table.at("face"), found, message('tip = "flat"'), changes=(change,))
+        table.wrong("face", found, message('tip = "flat"'), changes=(change,))
     face = measures.length(table.at("face"), 0 if raw is None else raw)
     return tips[0], CamLever(pins[0], SIDES[side], face)
 
@@ -409,8 +401,8 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
     findings, own = table.findings, links[follower]
     if on not in links or on == follower:
         expected = listed(name for name in links if name != follower)
-        findings.add(
-            table.at("on"),
+        table.wrong(
+            "on",
             message("link {on}", on=on),
             message("the link of the cam: {expected}", expected=expected),
         )
@@ -444,11 +436,8 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
     who = either(map(link_words, carriers))
     if on == FRAME and any(s.on == FRAME for name in carriers for s in links[name].slides):
         hint = message("let the plate slide and keep the follower's guide fixed: both move alike")
-        findings.add(
-            table.at("on"),
-            message("a plate at rest along which {who} slides", who=who),
-            CARRIED,
-            hint,
+        table.wrong(
+            "on", message("a plate at rest along which {who} slides", who=who), CARRIED, hint
         )
         return None
     found = message(
@@ -457,7 +446,7 @@ def seat_of(follower: str, on: str, table: Table, links: Mapping[str, Link]) -> 
         who=who,
         follower=follower,
     )
-    findings.add(table.at("on"), found, CARRIED, OTHER_CAMS)
+    table.wrong("on", found, CARRIED, OTHER_CAMS)
     return None
 
 
@@ -511,9 +500,7 @@ def read_piece(table: Table, measures: Measures, swings: bool, slides: bool) -> 
     motion = table.choice("motion", tuple(MOTIONS))
     if raw is None:
         hint = message("a dwell has neither rise nor motion")
-        table.findings.add(
-            table.at("rise"), message("is missing"), message("how far it lifts"), hint
-        )
+        table.wrong("rise", message("is missing"), message("how far it lifts"), hint)
     return CamPiece(to, rise, motion)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from itertools import pairwise
 from math import ceil, pi
 
@@ -18,7 +19,7 @@ from graphkin.scene.phrases import (
     link_name,
     point_name,
 )
-from graphkin.scene.quantity import Quantity, exact
+from graphkin.scene.quantity import SI, STANDARD_GRAVITY, Quantity, exact
 from graphkin.text.errors import Message, message
 
 GRAVITY = "9.81"
@@ -59,13 +60,15 @@ def masses(top: Table, scene: Scene, measures: Measures) -> Iterator[tuple[str, 
         table = Table(f"links.{name}", raw, findings)
         given = {key: table.take(key) for key in MASS_KEYS}
         if given["mass"] is None:
-            expected = message("mass = … in kg, beside centre and inertia")
+            unit = measures.mechanical("kg")
+            expected = message("mass = … in {unit}, beside centre and inertia", unit=unit)
             findings.add(table.place, message("no mass"), expected)
-        mass = measures.number(table.at("mass"), given["mass"] or 0, "kg")
+        mass = measures.number(table.at("mass"), given["mass"] or 0, measures.mechanical("kg"))
         not_below_zero(mass, measures)
         centre = centre_of(table, given["centre"], scene, name)
         inertia = given["inertia"]
-        read = None if inertia is None else measures.number(table.at("inertia"), inertia, "kg·m²")
+        unit = measures.mechanical("kg·m²")
+        read = None if inertia is None else measures.number(table.at("inertia"), inertia, unit)
         if read is not None:
             not_below_zero(read, measures)
         yield name, Mass(mass, centre, read)
@@ -90,17 +93,21 @@ def centre_of(table: Table, raw: object, scene: Scene, name: str) -> str:
 
 
 def gravity(top: Table, measures: Measures) -> Components | None:
-    """``gravity = true`` or two components in m/s²."""
+    """``gravity = true`` or two components, in m/s² or in the units of a scene in pounds."""
     raw = top.take("gravity")
     if raw is None or raw is False:
         return None
+    unit = measures.mechanical("m/s²")
+    g = Fraction(GRAVITY) if unit == "m/s²" else STANDARD_GRAVITY / SI[unit][0]
     if raw is True:
-        return exact(0, "m/s²"), measures.number("gravity", f"-{GRAVITY}", "m/s²")
+        return exact(0, unit), exact(-g, unit, "gravity")
     if not isinstance(raw, list):
-        expected = message("true for {g} m/s² downwards, or components [x, y]", g=GRAVITY)
+        expected = message(
+            "true for {g} {unit} downwards, or components [x, y]", g=f"{float(g):.7g}", unit=unit
+        )
         top.findings.add("gravity", shown(raw), expected)
         return None
-    return components(top, "gravity", raw, "m/s²", measures)
+    return components(top, "gravity", raw, unit, measures)
 
 
 def components(
@@ -146,7 +153,9 @@ def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
     expected = message("a table with between, stiffness and free")
     for table in tables_of(top, "springs", expected, findings):
         between, on = table.take("between"), table.take("links")
-        stiffness = measures.number(table.at("stiffness"), table.take("stiffness"), "N/m")
+        stiffness = measures.number(
+            table.at("stiffness"), table.take("stiffness"), measures.mechanical("N/m")
+        )
         free = measures.length(table.at("free"), table.take("free"))
         not_below_zero(stiffness, measures)
         not_below_zero(free, measures)
@@ -155,7 +164,7 @@ def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
         known = [point for link in scene.every_link for point in link.points]
         if len(ends) != 2 or ends[0] == ends[1]:
             expected = message('two points, such as "A-B"')
-            findings.add(table.at("between"), shown(between), expected)
+            table.wrong("between", shown(between), expected)
             continue
         for end in ends:
             known_point(end, known, THE_MECHANISM, table.at("between"), findings)
@@ -167,7 +176,7 @@ def springs(top: Table, scene: Scene, measures: Measures) -> Iterator[Spring]:
             owners = [link_name(table.at("links"), e, findings) or "" for e in given]
             if len(owners) != 2 or any(known_link_or_frame(scene, e) is None for e in owners):
                 expected = message("the links that hold the two ends, such as [2, 0]")
-                findings.add(table.at("links"), shown(on), expected)
+                table.wrong("links", shown(on), expected)
                 continue
         for end, owner in zip(ends, owners, strict=True):
             link = scene.frame if owner == FRAME else scene.link(owner)
@@ -201,7 +210,7 @@ def read_load(table: Table, scene: Scene, measures: Measures) -> Load | None:
         name = link_name(table.at("link"), link, findings) or ""
         if name == FRAME:
             found = message("the frame, which is at rest")
-            findings.add(table.at("link"), found, message("a moving link"))
+            table.wrong("link", found, message("a moving link"))
             name = ""
         elif name and known_link(scene, name, table.at("link"), findings) is None:
             name = ""
@@ -215,7 +224,9 @@ def read_load(table: Table, scene: Scene, measures: Measures) -> Load | None:
     read = None if force is None else force_of(table, force, over, scene, measures)
     couple = None
     if moment is not None:
-        couple = size_of(table.at("moment"), moment, "N·m", (table, over), scene, measures)
+        couple = size_of(
+            table.at("moment"), moment, measures.mechanical("N·m"), (table, over), scene, measures
+        )
     if point and name:
         known_point(point, scene.link(name).points, link_words(name), table.at("at"), findings)
     return Load(name, point, read, couple) if name and point is not None else None
@@ -226,16 +237,16 @@ def force_of(
 ) -> Components | Directed | None:
     """A force: two components, or a table with its size and its direction."""
     if not isinstance(raw, dict):
-        return components(table, "force", raw, "N", measures)
+        return components(table, "force", raw, measures.mechanical("N"), measures)
     own = Table(table.at("force"), raw, measures.findings)
     size, angle, motion = own.take("size"), own.take("angle"), own.take("motion")
     own.finish()
-    read = size_of(own.at("size"), size, "N", (table, over), scene, measures)
+    read = size_of(own.at("size"), size, measures.mechanical("N"), (table, over), scene, measures)
     if motion is None:
         return Directed(read, measures.angle(own.at("angle"), angle))
     if motion not in SENSES or angle is not None:
         expected = message('an angle, or motion = "along" or "against"')
-        measures.findings.add(own.at("motion"), shown(motion), expected)
+        own.wrong("motion", shown(motion), expected)
         return None
     return Directed(read, exact(0, "deg"), SENSES[str(motion)])
 
@@ -261,7 +272,7 @@ def size_of(
     name = links[0] if over is None and links else link_name(table.at("over"), over, findings)
     if name not in links or (over is None and len(links) > 1):
         expected = message("over = the link of a driver, {names}", names=listed(links))
-        findings.add(table.at("over"), shown(over), expected)
+        table.wrong("over", shown(over), expected)
         return nothing
     number = links.index(name)
     turns = scene.drivers[number].kind == "turn"

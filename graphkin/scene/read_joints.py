@@ -36,10 +36,8 @@ def tables(table: Table, key: str) -> list[Table]:
     """The tables of a key that may hold one table or a list of them."""
     raws = one_or_many(table.take(key))
     if len(raws) > MOST:
-        table.findings.add(
-            table.at(key),
-            message("a list of {count}", count=len(raws)),
-            message("at most {most}", most=MOST),
+        table.wrong(
+            key, message("a list of {count}", count=len(raws)), message("at most {most}", most=MOST)
         )
     found = []
     for index, raw in enumerate(raws[:MOST]):
@@ -68,9 +66,7 @@ def read_slide(table: Table, measures: Measures) -> Slide:
         for key in ("through", "angle"):
             if table.take(key) is not None:
                 expected = message('either along = "P-Q", or through and angle')
-                measures.findings.add(
-                    table.at(key), message("{key} beside along", key=key), expected
-                )
+                table.wrong(key, message("{key} beside along", key=key), expected)
     raw = table.take("offset")
     offset = measures.length(table.at("offset"), 0 if raw is None else raw)
     pin = table.flag("pin")
@@ -97,7 +93,7 @@ def read_line(table: Table, measures: Measures) -> tuple[str | Pair | None, Quan
         through = point_name(table.at("through"), raw, measures.findings)
     else:
         through, expected = None, message('the name of a point, "P", or two coordinates [x, y]')
-        measures.findings.add(table.at("through"), shown(raw), expected)
+        table.wrong("through", shown(raw), expected)
     angle = None if turned is None else measures.angle(table.at("angle"), turned)
     return through, angle
 
@@ -183,10 +179,8 @@ def normals(
             name, raw = found
             if name in taken:
                 expected = message("another name: link = …")
-                touch.findings.add(
-                    touch.at("link"),
-                    message("link {called} is there already", called=name),
-                    expected,
+                touch.wrong(
+                    "link", message("link {called} is there already", called=name), expected
                 )
                 continue
             taken.add(name)
@@ -208,13 +202,13 @@ def normal(
     if on is None or centres is None or radii is None:
         return None
     owned = {own: list(links[own].points)} if own in links else {}
-    owned |= {on: points_of(frame)} if on == FRAME else {}
+    owned |= {on: [point for key in frame.raw for point in key.split("-")]} if on == FRAME else {}
     owned |= {on: list(links[on].points)} if on in links else {}
     for end, link in zip(centres, (own, on), strict=True):
         if end not in owned.get(link, ()):
             found = message("{end} is no point of link {link}", end=end, link=link)
             hint = nearest(end, owned.get(link, ()))
-            findings.add(table.at("centres"), found, listed(owned.get(link, ())), hint)
+            table.wrong("centres", found, listed(owned.get(link, ())), hint)
             return None
     contact = raw if isinstance(raw, str) else f"{centres[0]}{centres[1]}"
     called = str(name) if name is not None else f"n{own}_{on}"
@@ -282,8 +276,3 @@ def between(
         f"{first}-{contact}": r,
         contact: f"on {first}-{second}",
     }
-
-
-def points_of(table: Table) -> list[str]:
-    """The points named in the keys of a link's table."""
-    return [point for key in table.raw for point in key.split("-")]

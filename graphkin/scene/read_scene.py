@@ -27,7 +27,7 @@ from graphkin.scene.phrases import (
     read_names,
 )
 from graphkin.scene.placing import read_shape
-from graphkin.scene.quantity import LENGTHS, TURNS, Quantity, exact
+from graphkin.scene.quantity import FORCES, LENGTHS, TURNS, Quantity, exact
 from graphkin.scene.read_joints import read_profiles, read_slides
 from graphkin.scene.requests import (
     read_ask,
@@ -125,16 +125,10 @@ def read_into(
 
         measures = Measures(findings, scene.units, scene.values)
         forces = read_forces(top, asked, scene, measures)
-        if forces is not None and states_other_results(top, scene):
-            findings.add(
-                "units.results",
-                message("{unit}: results with masses or loads are in metres", unit=scene.results),
-                message('results = "SI", or no results'),
-            )
         scene = replace(scene, forces=forces)
     top.finish()
     check_scene(scene, findings)
-    scene = replace(scene, ask=read_ask(asked, findings, scene))
+    scene = replace(scene, ask=read_ask(asked, scene))
     note_structure(scene, findings)
     findings.stop()
     return scene
@@ -165,12 +159,6 @@ def has_forces(top: Table, asked: Table) -> bool:
     written = [top.raw.get(FRAME_WORD), *(links.values() if isinstance(links, dict) else ())]
     masses = (key in each for each in written if isinstance(each, dict) for key in MASS_KEYS)
     return any(key is not None for key in keys) or any(masses)
-
-
-def states_other_results(top: Table, scene: Scene) -> bool:
-    """Whether a file itself wants results in another unit of length than metres."""
-    units = top.raw.get("units")
-    return isinstance(units, dict) and "results" in units and scene.unit_of_results != "m"
 
 
 def check_version(top: Table, findings: Findings) -> None:
@@ -232,13 +220,13 @@ def assembled(
         frame=frame,
         links=links,
         drivers=drivers,
-        branches=read_branches(top.table("branches"), frame, links, findings),
+        branches=read_branches(top.table("branches"), frame, links),
         ask=Ask(),
         sheet=replace(sheet, signs=sheet.signs.beside(points)),
         positions=read_positions(top.table("positions"), drivers, measures),
         time=time,
         titles=read_languages(top.table("titles")),
-        names=read_names(top.table("names"), findings),
+        names=read_names(top.table("names")),
         notes=read_languages(top.table("notes")),
         values=values,
         source=source,
@@ -258,12 +246,16 @@ def read_units(table: Table, findings: Findings, house: House) -> tuple[dict[str
         raw = table.take(key)
         units[key] = raw if isinstance(raw, str) and raw in choices else choices[0]
         if raw is None and not lost:
-            findings.add(table.at(key), message("no unit of {key}", key=key), listed(choices))
+            table.wrong(key, message("no unit of {key}", key=key), listed(choices))
         elif raw is not None and raw != units[key]:
             spelt = str(raw).strip().lower()
             meant = SPELLINGS.get(spelt, spelt)
             hint = Mend(str(raw), meant) if meant in choices else NO_WORDS
-            findings.add(table.at(key), shown(raw), listed(choices), hint)
+            table.wrong(key, shown(raw), listed(choices), hint)
+    if "force" in table:
+        units["force"] = table.choice("force", tuple(FORCES), "N")
+    else:
+        table.known.append("force")
     stated = "results" in table
     results = table.choice("results", RESULTS, RESULTS[0])
     table.finish()
@@ -338,9 +330,7 @@ def read_link(name: str, table: Table, measures: Measures, module: Quantity | No
     if name == FRAME:
         for key in ("slides", "belt", "touches", "cam"):
             if table.take(key) is not None:
-                measures.findings.add(
-                    table.at(key), message("the frame is at rest"), message("a moving link")
-                )
+                table.wrong(key, message("the frame is at rest"), message("a moving link"))
         drums = read_drums(table, measures)
         return Link(FRAME, points, placings, (), wheels, drums, profiles)
     slides = read_slides(table, measures)
@@ -452,8 +442,8 @@ def read_position(table: Table, key: str, unit: str, measures: Measures) -> Quan
     other = "position" if key == "angle" else "angle"
     if raw is None and other in table:
         table.take(other)
-        measures.findings.add(
-            table.at(other),
+        table.wrong(
+            other,
             message("this driver has no {other}", other=other),
             message("{key} = … in {unit}", key=key, unit=unit),
         )
@@ -495,6 +485,4 @@ def refuse_beside_law(table: Table, measures: Measures) -> None:
     for key in ("speed", "acceleration"):
         if table.take(key) is not None:
             found = message("{key} beside a law of time", key=key)
-            measures.findings.add(
-                table.at(key), found, message("none: it is the derivative of the law")
-            )
+            table.wrong(key, found, message("none: it is the derivative of the law"))

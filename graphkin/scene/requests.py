@@ -16,7 +16,6 @@ from graphkin.scene.measures import Measures
 from graphkin.scene.model import (
     FRAME,
     HALVED,
-    IMPERIAL,
     POINTS_ASKED,
     Ask,
     Branch,
@@ -40,7 +39,7 @@ from graphkin.scene.phrases import (
     point_name,
 )
 from graphkin.scene.quantity import Quantity, exact
-from graphkin.text import LANGUAGES
+from graphkin.text import IMPERIAL, LANGUAGES
 from graphkin.text.errors import Hint, Message, Written, either, joined, message
 from graphkin.text.school_signs import SCHOOLS
 
@@ -68,21 +67,17 @@ POLES = ("own", "one")
 MOST = 500
 
 
-def read_branches(
-    table: Table, frame: Link, links: Mapping[str, Link], findings: Findings
-) -> dict[str, Branch]:
+def read_branches(table: Table, frame: Link, links: Mapping[str, Link]) -> dict[str, Branch]:
     """The chosen branches, by the name of a pin or a link."""
     branches: dict[str, Branch] = {}
     for key, raw in table.raw.items():
         branch = branch_words(raw) if isinstance(raw, str) else None
-        name = link_name(table.at(key), key, findings)
+        name = link_name(table.at(key), key, table.findings)
         if branch is None:
-            findings.add(table.at(key), shown(raw), *wanted(key, raw, frame, links))
+            table.wrong(key, shown(raw), *wanted(key, raw, frame, links))
         elif name == FRAME:
-            findings.add(
-                table.at(key),
-                message("a branch of the frame, which is at rest"),
-                message("a pin or a link"),
+            table.wrong(
+                key, message("a branch of the frame, which is at rest"), message("a pin or a link")
             )
         elif name is not None:
             branches[name] = branch
@@ -116,18 +111,19 @@ def sides(name: str, links: Mapping[str, Link], branch: object = "") -> tuple[Me
     return expected, message("a block's branch is written under the link's name")
 
 
-def read_ask(table: Table, findings: Findings, scene: Scene) -> Ask:
+def read_ask(table: Table, scene: Scene) -> Ask:
     """The requested results of a scene; each key holds a list of its points or links."""
     keys = (key for key in Ask.__struct_fields__ if key not in (CENTRES_ASKED, PAIRS))
-    names = {key: names_asked(table, key, findings, scene) for key in keys}
-    centres, pairs = centres_asked(table, findings, scene)
+    names = {key: names_asked(table, key, scene) for key in keys}
+    centres, pairs = centres_asked(table, scene)
     table.finish()
     return Ask(**names, centres=centres, pairs=pairs)
 
 
-def names_asked(table: Table, key: str, findings: Findings, scene: Scene) -> tuple[str, ...]:
+def names_asked(table: Table, key: str, scene: Scene) -> tuple[str, ...]:
     """The names in one list, without repetition."""
-    found = (name_asked(place, key, raw, findings, scene) for place, raw in items(table, key))
+    every = items(table, key)
+    found = (name_asked(place, key, raw, table.findings, scene) for place, raw in every)
     return tuple(dict.fromkeys(name for name in found if name is not None))
 
 
@@ -161,7 +157,7 @@ def items(table: Table, key: str) -> Iterator[tuple[str, object]]:
         yield from ((f"{table.at(key)}[{index}]", each) for index, each in enumerate(raw))
     elif raw is not None:
         what = '["A", "B"]' if key in POINTS_ASKED else "[2, 3]"
-        table.findings.add(table.at(key), shown(raw), message("a list, such as {what}", what=what))
+        table.wrong(key, shown(raw), message("a list, such as {what}", what=what))
 
 
 def moving_link(place: str, raw: object, findings: Findings) -> str | None:
@@ -173,9 +169,7 @@ def moving_link(place: str, raw: object, findings: Findings) -> str | None:
     return name
 
 
-def centres_asked(
-    table: Table, findings: Findings, scene: Scene
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
+def centres_asked(table: Table, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """The links and the pairs of links whose centres are requested: 2, "2-4", or "all" pairs."""
     if table.raw.get(CENTRES_ASKED) == ALL:
         table.take(CENTRES_ASKED)
@@ -186,8 +180,8 @@ def centres_asked(
         if raw == ALL:
             pairs += all_pairs(scene)
         elif isinstance(raw, str) and "-" in raw:
-            pairs += link_pair(place, raw, findings, scene)
-        elif name := name_asked(place, CENTRES_ASKED, raw, findings, scene):
+            pairs += link_pair(place, raw, table.findings, scene)
+        elif name := name_asked(place, CENTRES_ASKED, raw, table.findings, scene):
             centres.append(name)
     return tuple(dict.fromkeys(centres)), tuple(dict.fromkeys(pairs))
 
@@ -223,7 +217,7 @@ def read_sheet(table: Table, measures: Measures, house: House) -> Sheet:
     rule, ka = table.choice("rule", RULES, RULES[0]), table.take("ka")
     sheets = table.take("sheets")
     if sheets is not None and (isinstance(sheets, bool) or sheets not in (1, 2)):
-        table.findings.add(table.at("sheets"), shown(sheets), message("1 or 2"))
+        table.wrong("sheets", shown(sheets), message("1 or 2"))
         sheets = None
     signs = read_signs(table, "signs", house.signs)
     usual = house.frame or ("GOST" if signs == SCHOOLS["russian"].signs else FRAMES[0])
@@ -268,7 +262,7 @@ def read_positions(
         accelerations = tuple(sorted({each for each in some if each is not None}))
     elif raw is not None and raw != ALL:
         expected = message('numbers of positions, such as [0, 3], or "all"')
-        table.findings.add(table.at("accelerations"), shown(raw), expected)
+        table.wrong("accelerations", shown(raw), expected)
     start = read_start(table, drivers, measures)
     table.finish()
     return StatedPositions(count, start, strong, one_pole, accelerations)

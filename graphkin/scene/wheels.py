@@ -73,9 +73,7 @@ def read_wheel(table: Table, measures: Measures, module: Quantity | None) -> Whe
     if raw_radius is not None:
         radius = measures.length(table.at("radius"), raw_radius, positive=True)
         if own is not None:
-            measures.findings.add(
-                table.at("module"), message("module beside radius"), message("one of the two")
-            )
+            table.wrong("module", message("module beside radius"), message("one of the two"))
     elif teeth is not None and module is not None:
         radius = pitch_radius(teeth, module)
     elif teeth is None:
@@ -328,20 +326,16 @@ def read_rolling(table: Table, measures: Measures) -> Rolling:
     raw = table.take("side")
     side = SIDES.get(raw) if isinstance(raw, str) else None
     if raw is not None and side is None:
-        measures.findings.add(table.at("side"), shown(raw), message('"left" or "right"'))
+        table.wrong("side", shown(raw), message('"left" or "right"'))
     if raw is not None and "through" not in table:
-        measures.findings.add(
-            table.at("side"), message("a side without through"), message("a straight track")
-        )
+        table.wrong("side", message("a side without through"), message("a straight track"))
     table.take("through"), table.take("angle")
     keeper = ""
     if (name := table.take("link")) is not None:
         keeper = link_name(table.at("link"), name, measures.findings) or ""
     wheels = read_pair(table, measures)
     if wheels is not None and through is not None:
-        measures.findings.add(
-            table.at("wheels"), message("wheels beside through"), message("one of the two")
-        )
+        table.wrong("wheels", message("wheels beside through"), message("one of the two"))
     table.finish()
     return Rolling(on, through, angle, start, side or 1, turns, keeper=keeper, wheels=wheels)
 
@@ -384,7 +378,7 @@ def read_tension(table: Table, measures: Measures) -> StrandTension | None:
     if len(given) > 1:
         found = message("both {keys}", keys=joined(", ", given))
         findings.add(table.place, found, message("one of {keys}", keys=joined(", ", TENSIONS)))
-    number = measures.number(place, given[key], TENSIONS[key])
+    number = measures.number(place, given[key], measures.mechanical(TENSIONS[key]))
     least = 1 if key == "ratio" else 0
     value = number.number(measures.values)
     if value < least or (key == "ratio" and value == least):
@@ -401,7 +395,7 @@ def read_pair(table: Table, measures: Measures) -> tuple[int, int] | None:
         case [int(own), int(other)] if 0 < own <= MOST and 0 < other <= MOST:
             return own - 1, other - 1
     expected = message("[1, 2]: the wheel of this link and that of the other, counted from 1")
-    measures.findings.add(table.at("wheels"), shown(raw), expected)
+    table.wrong("wheels", shown(raw), expected)
     return None
 
 

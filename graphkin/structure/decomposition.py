@@ -38,6 +38,7 @@ from graphkin.structure.pairs import (
     Pair,
     Pin,
     PinLine,
+    Placed,
     Sliding,
     is_spare,
     partner,
@@ -62,44 +63,45 @@ from graphkin.structure.wheel_groups import (
 from graphkin.text.errors import Problem, StructureError, message
 
 
-def settle(group: Group, known: set[str], waiting: list[Driver]) -> None:
+def settle(placed: Placed, group: Group) -> None:
     """Mark the group's links as known and its drivers as used."""
-    known.update(group.links)
+    placed.known.update(group.links)
     if isinstance(group, Higher):
         for each in group.chain:
-            settle(each, known, waiting)
+            settle(placed, each)
         if isinstance(group.last, Driver):
-            waiting.remove(group.last)
+            placed.waiting.remove(group.last)
     elif isinstance(group, Crank | Driven | Spun):
-        waiting.remove(group.driver)
+        placed.waiting.remove(group.driver)
     elif isinstance(group, Stretched):
         for driver in group.drivers:
-            waiting.remove(driver)
+            placed.waiting.remove(driver)
+    elif isinstance(group, OnTwoPins):  # one of the two blocks that guide its link suffices
+        placed.joints = placed.joints.without([group.inner.spare])
 
 
-def next_driven(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+def next_driven(placed: Placed) -> Group | None:
     """The first link, in the order of drivers, that is driven against a known link."""
-    for driver in waiting:
+    for driver in placed.waiting:
         for link, against in ((driver.link, driver.against), (driver.against, driver.link)):
-            if link in known or against not in known:
+            if link in placed.known or against not in placed.known:
                 continue
-            group = driven_by(joints, known, driver, link, against)
+            group = driven_by(placed, driver, link, against)
             if group is not None:
                 return group
     return None
 
 
 def driven_by(
-    joints: Joints, known: Collection[str], driver: Driver, link: str, against: str
+    placed: Placed, driver: Driver, link: str, against: str
 ) -> Crank | Driven | Spun | None:
     """The group of one driven link: a crank about any known pin, or a block along its own guide."""
     if driver.kind == "turn":
-        pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
+        pins = [pair for pair in placed.held(link) if isinstance(pair, Pin)]
         if pins:
-            first, second = pins[0].links
-            return Crank(link, driver, pins[0].point, second if first == link else first)
-        return turned_wheel(joints, driver, link) or spun(joints, known, driver, link)
-    for pair in joints.between(link, (against,)):
+            return Crank(link, driver, pins[0].point, partner(pins[0], link))
+        return turned_wheel(placed.joints, driver, link) or spun(placed, driver, link)
+    for pair in placed.joints.between(link, (against,)):
         if isinstance(pair, Pin) or pair.moved_by != driver.kind:
             continue
         if pair.links[0] == driver.link:
@@ -107,35 +109,32 @@ def driven_by(
     return None
 
 
-def next_group(joints: Joints, known: Collection[str]) -> Group | None:
+def next_group(placed: Placed) -> Group | None:
     """The first dyad or geared wheel, in written order, that closes on known links."""
-    for first in joints.unknown(known):
-        left = joints.between(first, known)
+    for first in placed.unknown():
+        left = placed.held(first)
         if not left:
             continue
-        if geared := geared_of(first, left, known):
+        if geared := geared_of(first, left, placed.known):
             return geared
-        if dyad := dyad_with(joints, known, first, left):
-            return CamFollower(dyad) if {*dyad.links} & joints.scene.cam_links.keys() else dyad
-        if train := train_with(joints, known, first, left):
+        if dyad := dyad_with(placed, first, left):
+            return CamFollower(dyad) if {*dyad.links} & placed.scene.cam_links.keys() else dyad
+        if train := train_with(placed, first, left):
             return train
     return None
 
 
-def dyad_with(
-    joints: Joints, known: Collection[str], first: str, left: tuple[Joint, ...]
-) -> Dyad | None:
+def dyad_with(placed: Placed, first: str, left: tuple[Joint, ...]) -> Dyad | None:
     """The dyad of a link with the first neighbour that is joined to known links, too."""
     if len(left) != 1 or left[0].taken != 2:
         return None
-    for second in joints.neighbours(first):
-        if second in known:
+    for second in placed.joints.neighbours(first):
+        if second in placed.known:
             continue
-        inner = joints.inner(first, second, known)
-        right = joints.between(second, known)
+        inner, right = placed.inner(first, second), placed.held(second)
         if len(inner) == len(right) == 1 and inner[0].taken == right[0].taken == 2:
             dyad = Dyad((first, second), left[0], inner[0], right[0])
-            if can_close(joints.scene, dyad):
+            if can_close(placed.scene, dyad):
                 return in_order(dyad)
     return None
 
@@ -167,42 +166,36 @@ def in_order(dyad: Dyad) -> Dyad:
     return dyad
 
 
-def next_stretched(
-    joints: Joints, known: Collection[str], waiting: list[Driver]
-) -> Stretched | None:
+def next_stretched(placed: Placed) -> Stretched | None:
     """The first dyad, in the order of drivers, with a driven cylinder as a bar."""
-    cylinders = [each for driver in waiting for each in cylinders_of(joints, known, driver)]
+    cylinders = [each for driver in placed.waiting for each in cylinders_of(placed, driver)]
     for cylinder in cylinders:
-        for other in joints.neighbours(cylinder.far):
-            if found := stretched_dyad(joints, known, cylinder, other, cylinders):
+        for other in placed.joints.neighbours(cylinder.far):
+            if found := stretched_dyad(placed, cylinder, other, cylinders):
                 return found
     return None
 
 
-def cylinders_of(joints: Joints, known: Collection[str], driver: Driver) -> Iterator[Cylinder]:
+def cylinders_of(placed: Placed, driver: Driver) -> Iterator[Cylinder]:
     """The cylinder that a driver lengthens, if one of its two links is on a known pin."""
-    if driver.kind != "slide" or driver.link in known or driver.against in known:
+    if driver.kind != "slide" or {driver.link, driver.against} & placed.known:
         return
     for near, far in ((driver.link, driver.against), (driver.against, driver.link)):
-        left, slides = joints.between(near, known), joints.inner(near, far, known)
-        if len(left) == len(slides) == 1 and not joints.between(far, known):
+        left, slides = placed.held(near), placed.inner(near, far)
+        if len(left) == len(slides) == 1 and not placed.held(far):
             pin, slide = left[0], slides[0]
             if isinstance(pin, Pin) and isinstance(slide, Sliding):
                 yield Cylinder(driver, near, far, slide, pin)
 
 
 def stretched_dyad(
-    joints: Joints,
-    known: Collection[str],
-    cylinder: Cylinder,
-    other: str,
-    cylinders: Sequence[Cylinder],
+    placed: Placed, cylinder: Cylinder, other: str, cylinders: Sequence[Cylinder]
 ) -> Stretched | None:
     """The dyad of a cylinder's far link with another that is on a known link or a cylinder."""
-    near, far = cylinder.near, cylinder.far
-    if other in known or other == near or joints.between(near, (other,)):
+    joints, near, far = placed.joints, cylinder.near, cylinder.far
+    if other in placed.known or other == near or joints.between(near, (other,)):
         return None
-    inner, right = joints.inner(far, other, known), joints.between(other, known)
+    inner, right = placed.inner(far, other), placed.held(other)
     if len(inner) != 1 or not isinstance(inner[0], Pin):
         return None
     if len(right) == 1 and isinstance(right[0], Pin | Sliding):
@@ -213,34 +206,30 @@ def stretched_dyad(
     return Stretched((cylinder, second), Dyad((far, other), cylinder.foot, inner[0], second.foot))
 
 
-def next_on_two_pins(
-    joints: Joints, known: Collection[str], waiting: Sequence[Driver]
-) -> OnTwoPins | None:
+def next_on_two_pins(placed: Placed) -> OnTwoPins | None:
     """The first two blocks, in written order, that guide a link: on known pins, in parallel guides.
 
     A block that a driver slides along the link is kept for the link's position.
     """
-    driven = [{driver.link, driver.against} for driver in waiting if driver.kind == "slide"]
-    for rail in joints.unknown(known):
-        slides = joints.others[rail]
-        blocks = [each for pair in slides for each in pinned(joints, known, rail, pair)]
+    joints = placed.joints
+    driven = [{driver.link, driver.against} for driver in placed.waiting if driver.kind == "slide"]
+    for rail in placed.unknown():
+        blocks = [each for pair in joints.others[rail] for each in pinned(placed, rail, pair)]
         blocks.sort(key=lambda each: joints.order[partner(each[0], rail)])
         for (first, start), (second, end) in combinations(blocks, 2):
             if start.place != end.place and is_parallel(joints.scene, rail, first, second):
                 spare = first if {*second.links} in driven else second
-                return on_two_pins(joints, known, rail, (second, first), (end, start), spare)
+                return on_two_pins(placed, rail, (second, first), (end, start), spare)
     return None
 
 
-def pinned(
-    joints: Joints, known: Collection[str], rail: str, pair: Joint
-) -> Iterator[tuple[Sliding, Pin]]:
+def pinned(placed: Placed, rail: str, pair: Joint) -> Iterator[tuple[Sliding, Pin]]:
     """The slide between a link and a block held only by one known pin, with that pin."""
     block = partner(pair, rail)
-    if block in known or not isinstance(pair, Sliding):
+    if block in placed.known or not isinstance(pair, Sliding):
         return
-    held = joints.between(block, known)
-    if len(held) == 1 and isinstance(held[0], Pin) and len(joints.inner(rail, block, known)) == 1:
+    held = placed.held(block)
+    if len(held) == 1 and isinstance(held[0], Pin) and len(placed.inner(rail, block)) == 1:
         yield pair, held[0]
 
 
@@ -253,8 +242,7 @@ def is_parallel(scene: Scene, rail: str, *pairs: Sliding) -> bool:
 
 
 def on_two_pins(
-    joints: Joints,
-    known: Collection[str],
+    placed: Placed,
     rail: str,
     slides: tuple[Sliding, Sliding],
     pins: tuple[Pin, Pin],
@@ -262,8 +250,8 @@ def on_two_pins(
 ) -> OnTwoPins:
     """Two blocks that guide a link: the later one with its pin, and the first."""
     block, start = (partner(pair, rail) for pair in slides)
-    carriers = ({*joints.owners[pin.place]} & {*known} for pin in pins)
-    shared = sorted(set.intersection(*carriers), key=joints.order.__getitem__)
+    carriers = ({*placed.joints.owners[pin.place]} & placed.known for pin in pins)
+    shared = sorted(set.intersection(*carriers), key=placed.joints.order.__getitem__)
     own, guide = slides[1].slide, Slide(start, pins[1].place, exact(0, "deg"), None, exact(0, "m"))
     if own.on == start:
         guide = replace(guide, angle=own.angle, along=own.along)
@@ -273,37 +261,30 @@ def on_two_pins(
     return OnTwoPins((start, block), pins[1], line, pins[0])
 
 
-def left_by(group: Group, joints: Joints) -> Joints:
-    """The pairs that count once a group is known: one of two blocks that guide a link suffices."""
-    return joints.without([group.inner.spare]) if isinstance(group, OnTwoPins) else joints
-
-
-def next_parallel(
-    joints: Joints, known: Collection[str], *, unstated: bool = False
-) -> KeptParallel | None:
+def next_parallel(placed: Placed, *, unstated: bool = False) -> KeptParallel | None:
     """The first link on a known pin, in written order, that bars keep parallel to a known link.
 
     Links for whose pins the scene states a side can be left to the dyad of which that is the side:
     with ``unstated``, they are.
     """
-    scene = joints.scene
-    for link in joints.unknown(known) if joints.parallel else ():
+    scene, sets = placed.scene, placed.joints.parallel
+    for link in placed.unknown() if sets else ():
         stated = (isinstance(scene.branches.get(p), Side) for p in scene.link(link).points)
         if unstated and any(stated):
             continue
-        pins = [pair for pair in joints.between(link, known) if isinstance(pair, Pin)]
-        if pins and (way := way_between(joints.parallel, link, known)):
+        pins = [pair for pair in placed.held(link) if isinstance(pair, Pin)]
+        if pins and (way := way_between(sets, link, placed.known)):
             return KeptParallel(link, pins[0], *way)
     return None
 
 
-def next_tie(joints: Joints, known: Collection[str]) -> Tie | None:
+def next_tie(placed: Placed) -> Tie | None:
     """The first link, in written order, that two pins or slides join to known links.
 
     Two slides on one link would leave it free to slide along them, if it can move at all.
     """
-    for link in joints.unknown(known):
-        pairs = joints.between(link, known)
+    for link in placed.unknown():
+        pairs = placed.held(link)
         if len(pairs) == 2 and all(pair.taken == 2 for pair in pairs):
             first, second = sorted(pairs, key=lambda pair: not isinstance(pair, Pin))
             on_two = isinstance(first, Pin) or partner(first, link) != partner(second, link)
@@ -325,46 +306,43 @@ def decompose(scene: Scene) -> tuple[Group, ...]:
     Raises StructureError for a follower that misses its cam.
     """
     refuse_far_guides(scene)
-    joints = Joints(scene)
-    known = {FRAME}
-    waiting = list(scene.drivers)
+    placed = Placed(Joints(scene), {FRAME}, scene.drivers)
     groups: list[Group] = []
-    while len(known) <= len(scene.links):
+    while len(placed.known) <= len(scene.links):
         group = (
-            next_driven(joints, known, waiting)
-            or next_parallel(joints, known, unstated=True)
-            or next_group(joints, known)
-            or next_stretched(joints, known, waiting)
-            or next_tie(joints, known)
-            or next_on_two_pins(joints, known, waiting)
-            or next_parallel(joints, known)
-            or next_tried(joints, known, waiting)
-            or unresolved(joints, known, waiting)
+            next_driven(placed)
+            or next_parallel(placed, unstated=True)
+            or next_group(placed)
+            or next_stretched(placed)
+            or next_tie(placed)
+            or next_on_two_pins(placed)
+            or next_parallel(placed)
+            or next_tried(placed)
+            or unresolved(placed)
         )
         groups.append(group)
-        settle(group, known, waiting)
-        joints = left_by(group, joints)
+        settle(placed, group)
     return tuple(groups)
 
 
-def next_tried(joints: Joints, known: Collection[str], waiting: list[Driver]) -> Group | None:
+def next_tried(placed: Placed) -> Group | None:
     """The next group that closes after some of its links are tried."""
     return (
-        next_coupled(joints, known)
-        or next_higher(joints, known, waiting)
-        or next_coupled(joints, known, idle=True)
-        or next_higher(joints, known, waiting, by_wheels=True)
+        next_coupled(placed)
+        or next_higher(placed)
+        or next_coupled(placed, idle=True)
+        or next_higher(placed, by_wheels=True)
     )
 
 
-def unresolved(joints: Joints, known: Collection[str], waiting: Sequence[Driver]) -> Unresolved:
+def unresolved(placed: Placed) -> Unresolved:
     """The remaining links, with those features that no construction accepts."""
     from graphkin.structure.touching_wheels import asked_of
 
-    links = tuple(joints.unknown(known))
-    driven = tuple(each for each in waiting if {each.link, each.against} & {*links})
-    held, wedged = tracks_held(joints, links), wedged_wheels(joints, known, links)
-    return Unresolved(links, driven, held, wedged, asked_of(joints.scene, held))
+    links = tuple(placed.unknown())
+    driven = tuple(each for each in placed.waiting if {each.link, each.against} & {*links})
+    held, wedged = tracks_held(placed.joints, links), wedged_wheels(placed, links)
+    return Unresolved(links, driven, held, wedged, asked_of(placed.scene, held))
 
 
 def refuse_far_guides(scene: Scene) -> None:
@@ -469,45 +447,36 @@ def far_lever(scene: Scene, follower: str, cam: Cam) -> Problem | None:
 # --- groups of class III and higher: the link to try so that dyads do the rest --------------------
 
 
-def at_instant(
-    joints: Joints, group: Higher, known: Collection[str], waiting: Collection[Driver]
-) -> Higher:
+def at_instant(placed: Placed, group: Higher) -> Higher:
     """A group with the groups for its plans at the instant, its wheels pinned at their contacts.
 
     The group is unchanged where none of its wheels touches a known track, or where a link would
     have to be tried anyway. The same holds where an arm and its wheel would close as a dyad,
     because its three pins are in line.
     """
-    wheels = pinned_wheels(joints, group.links, group.placing, known)
+    wheels = pinned_wheels(placed, group.links, group.placing)
     if not wheels:
         return group
-    pinned = joints.part(group.links).with_pins([(wheel.joint, wheel.rim) for wheel in wheels])
-    left = [each for each in waiting if {each.link, each.against} & {*group.links}]
+    own = placed.joints.part(group.links).with_pins([(wheel.joint, wheel.rim) for wheel in wheels])
+    left = (each for each in placed.waiting if {each.link, each.against} & {*group.links})
     in_line = [wheel.three for wheel in wheels]
-    grown, found = {*known}, list[Group]()
-    while not grown.issuperset(group.links):
-        each = (
-            next_driven(pinned, grown, left)
-            or next_group(pinned, grown)
-            or next_stretched(pinned, grown, left)
-            or next_tie(pinned, grown)
-        )
+    grown, found = Placed(own, placed.known, left), list[Group]()
+    while not grown.known.issuperset(group.links):
+        each = next_driven(grown) or next_group(grown) or next_stretched(grown) or next_tie(grown)
         if each is None:
             return group
         if isinstance(each, Dyad) and any({*each.links} <= three for three in in_line):
             return group
         found.append(each)
-        settle(each, grown, left)
-    return group if left else replace(group, wheels=wheels, at_instant=tuple(found))
+        settle(grown, each)
+    return group if grown.waiting else replace(group, wheels=wheels, at_instant=tuple(found))
 
 
 MOST_TRIED = 4
 """The most links of a group that are tried together."""
 
 
-def next_higher(
-    joints: Joints, known: Collection[str], waiting: list[Driver], *, by_wheels: bool = False
-) -> Higher | None:
+def next_higher(placed: Placed, *, by_wheels: bool = False) -> Higher | None:
     """The smallest group that closes after the fewest links are tried, in written order.
 
     Of two wheels in mesh, the larger is tried: in one turn of it the smaller turns further. A link
@@ -515,28 +484,26 @@ def next_higher(
     ``by_wheels`` also finds groups that only the no-slip condition of a wheel closes.
     """
     for count in range(1, MOST_TRIED + 1):
-        if least := least_tried(joints, known, waiting, count, by_wheels):
-            return at_instant(joints, least, known, waiting)
+        if least := least_tried(placed, count, by_wheels):
+            return at_instant(placed, least)
     return None
 
 
-def least_tried(
-    joints: Joints, known: Collection[str], waiting: list[Driver], count: int, by_wheels: bool
-) -> Higher | None:
+def least_tried(placed: Placed, count: int, by_wheels: bool) -> Higher | None:
     """The smallest group that closes after ``count`` links are tried."""
-    tied = [{driver.link, driver.against} for driver in waiting]
+    joints, scene = placed.joints, placed.scene
+    tied = [{driver.link, driver.against} for driver in placed.waiting]
     part_of = {
         link: part
-        for links in joints.apart(known, tied)
-        for part in (joints.part(links),)
+        for links in joints.apart(placed.known, tied)
+        for part in (placed.by(joints.part(links)),)
         for link in links
     }
     found = [
         group
-        for one in triable(joints, known)
-        for group in closing(part_of[one.link], known, waiting, one, count, by_wheels)
+        for one in triable(placed)
+        for group in closing(part_of[one.link], one, count, by_wheels)
     ]
-    scene = joints.scene
     return min(found, key=lambda group: (len(group.links), speeding(scene, group)), default=None)
 
 
@@ -546,77 +513,62 @@ def speeding(scene: Scene, group: Higher) -> int:
     return sum(turned_by_smaller(scene, each) for each in geared)
 
 
-def triable(joints: Joints, known: Collection[str]) -> Iterator[TriedLink]:
+def triable(placed: Placed) -> list[TriedLink]:
     """The links that can be tried: about a known pin first, then along a guide or track."""
-    joined = [
-        (link, pair) for link in joints.unknown(known) for pair in joints.between(link, known)
-    ]
-    joined = [(link, pair) for link, pair in joined if pair.taken == 2]
-    for kind in (Pin, object):
-        for link, pair in joined:
-            if isinstance(pair, kind) and (kind is Pin or not isinstance(pair, Pin)):
-                yield TriedLink(link, pair)
+    joined = ((link, pair) for link in placed.unknown() for pair in placed.held(link))
+    found = [TriedLink(link, pair) for link, pair in joined if pair.taken == 2]
+    return sorted(found, key=lambda one: not isinstance(one.pair, Pin))
 
 
-def closing(
-    joints: Joints,
-    known: Collection[str],
-    waiting: list[Driver],
-    tried: TriedLink,
-    count: int,
-    by_wheels: bool,
-) -> Iterator[Higher]:
+def closing(placed: Placed, tried: TriedLink, count: int, by_wheels: bool) -> Iterator[Higher]:
     """The group that closes when a link's position is assumed known, if one does.
 
     Groups within it may try one link less than ``count``.
     """
-    grown, left, count = {*known, tried.link}, list(waiting), count - 1
+    grown = Placed(placed.joints, {*placed.known, tried.link}, placed.waiting)
+    count -= 1
     chain: list[Group] = []
     while True:
-        last: Last | None = over_given(known, grown, left)
-        last = last or next_tie(joints, grown)
+        last: Last | None = over_given(placed, grown)
+        last = last or next_tie(grown)
         if by_wheels and last is None:
-            last = over_rolled(joints, known, grown, chain)
+            last = over_rolled(placed, grown, chain)
         if isinstance(last, Tie) and not isinstance(last.first, Pin):
             return
-        spare = (
-            last if isinstance(last, Tie) and is_spare(joints.parallel, last.link, grown) else None
-        )
+        sets = grown.joints.parallel
+        spare = last if isinstance(last, Tie) and is_spare(sets, last.link, grown.known) else None
         if last is not None and spare is None:
             break
         group = (
             spare
-            or next_driven(joints, grown, left)
-            or next_parallel(joints, grown)
-            or next_group(joints, grown)
-            or next_stretched(joints, grown, left)
-            or next_on_two_pins(joints, grown, left)
-            or (next_group(let_slip(joints, grown), grown) if by_wheels else None)
-            or (least_tried(joints, grown, left, count, by_wheels) if count else None)
+            or next_driven(grown)
+            or next_parallel(grown)
+            or next_group(grown)
+            or next_stretched(grown)
+            or next_on_two_pins(grown)
+            or (next_group(let_slip(grown)) if by_wheels else None)
+            or (least_tried(grown, count, by_wheels) if count else None)
         )
         if group is None:
             return
         if isinstance(group, Geared):
-            group = by_known(joints, group, {*known, tried.link})
+            group = by_known(grown.joints, group, {*placed.known, tried.link})
         chain.append(group)
-        settle(group, grown, left)
-        joints = left_by(group, joints)
+        settle(grown, group)
         count -= len(group.nested) if isinstance(group, Higher) else 0
     ends = needed_by(last)
-    kept = needed(joints, chain, ends)
-    if tried.link not in kept.needs:
+    kept, needs = needed(grown.joints, chain, ends)
+    if tried.link not in needs:
         return
-    higher = Higher(tried, kept.chain, last, ((), ()))
-    yield replace(higher, joints=pairs_of(joints, higher, known))
+    higher = Higher(tried, kept, last, ((), ()))
+    yield replace(higher, joints=pairs_of(grown.joints, higher, placed.known))
 
 
-def over_given(
-    known: Collection[str], grown: Collection[str], waiting: list[Driver]
-) -> Driver | None:
+def over_given(placed: Placed, grown: Placed) -> Driver | None:
     """A driver whose two links have become known without it."""
-    for driver in waiting:
+    for driver in grown.waiting:
         ends = {driver.link, driver.against}
-        if ends <= set(grown) and not ends <= set(known):
+        if ends <= grown.known and not ends <= placed.known:
             return driver
     return None
 
@@ -647,21 +599,16 @@ def supports(group: Group) -> set[str]:
     return found - set(group.links)
 
 
-class Needed:
-    """The part of a chain on which its end depends, and the links that this part needs."""
-
-    def __init__(self, chain: tuple[Group, ...], needs: set[str]) -> None:
-        self.chain, self.needs = chain, needs
-
-
-def needed(joints: Joints, chain: list[Group], ends: set[str]) -> Needed:
-    """The chain without groups that do not help to close it."""
+def needed(
+    joints: Joints, chain: list[Group], ends: set[str]
+) -> tuple[tuple[Group, ...], set[str]]:
+    """The chain without groups that do not help to close it, and the links that it needs."""
     needs, kept = set(ends), list[Group]()
     for group in reversed(chain):
         if needs.intersection(group.links):
             kept.insert(0, group)
             needs |= supports(group) | pivots(joints, group)
-    return Needed(tuple(kept), needs)
+    return tuple(kept), needs
 
 
 def pivots(joints: Joints, group: Group) -> set[str]:

@@ -9,20 +9,17 @@ from msgspec import Struct
 
 from graphkin.scene.findings import natural
 from graphkin.scene.link_points import under
-from graphkin.scene.model import Driver, joined_words, link_words
-from graphkin.structure.pairs import Contact, Joint, ParallelSet, Pin, PinLine, Sliding
-from graphkin.structure.wheel_groups import (
-    CoupledTrain,
-    Crank,
-    Driven,
-    Geared,
-    OneLink,
-    PinnedWheel,
-    Spun,
-    Tie,
-    Train,
-    TriedLink,
-    other_of,
+from graphkin.scene.model import FRAME, Driver, joined_words, link_words
+from graphkin.structure.pairs import (
+    Contact,
+    ContactName,
+    Joint,
+    Leading,
+    ParallelSet,
+    Pin,
+    PinLine,
+    Sliding,
+    partner,
 )
 from graphkin.text.errors import NO_WORDS, Message, message
 from graphkin.text.tables import listed
@@ -87,29 +84,275 @@ def shortest_ways(joined: Sequence[Joined], start: str) -> dict[str, int]:
     return ways
 
 
-__all__ = [
-    "CamFollower",
-    "CoupledTrain",
-    "Crank",
-    "Cylinder",
-    "Driven",
-    "Dyad",
-    "Geared",
-    "Group",
-    "Higher",
-    "KeptParallel",
-    "OnTwoPins",
-    "PinnedWheel",
-    "Spun",
-    "Stretched",
-    "Tie",
-    "Train",
-    "TriedLink",
-    "Unresolved",
-    "other_of",
-]
-
 ROMAN = ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII")
+
+
+class OneLink(Struct, frozen=True):
+    """A group of one link."""
+
+    link: str
+
+    @property
+    def links(self) -> tuple[str]:
+        return (self.link,)
+
+
+class Crank(OneLink, frozen=True):
+    """A link that a driver turns about a pin with known motion.
+
+    Link ``base`` carries the pin. It may be another than the one against which the driver turns.
+    """
+
+    driver: Driver
+    pivot: str
+    base: str
+
+    @property
+    def against(self) -> str:
+        """Words for the reference link of its rotation; empty for the frame."""
+        other = other_of(self.driver, self.link)
+        return "" if other == FRAME else f" against link {other}"
+
+    @property
+    def title(self) -> str:
+        return f"driven by a crank about {self.pivot}" + (self.against and f",{self.against}")
+
+    @property
+    def words(self) -> str:
+        """Its kind, class and order, its links and the pairs that join it."""
+        named = "crank" if self.link == "crank" else f"crank {self.link}"
+        return f"{named} about {self.pivot}{self.against} (class I)"
+
+
+class Driven(OneLink, frozen=True):
+    """A link that a driver moves along a guide or a track of a known link."""
+
+    driver: Driver
+    pair: Leading
+
+    @property
+    def outer(self) -> tuple[Joint]:
+        """Its pair with a known link."""
+        return (self.pair,)
+
+    @property
+    def title(self) -> str:
+        against = other_of(self.driver, self.link)
+        beside = "frame" if against == FRAME else f"link {against}"
+        return f"driven, {self.pair.moving} on {beside}"
+
+    @property
+    def words(self) -> str:
+        """Its kind, class and order, its links and the pairs that join it."""
+        return f"link {self.link} driven (class I): {self.pair.words}"
+
+
+class Tie(OneLink, frozen=True):
+    """A link that two pairs join to known links: idle on two pins, a wedge on two guides."""
+
+    first: Joint
+    second: Joint
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with known links."""
+        return self.first, self.second
+
+    @property
+    def title(self) -> str:
+        if isinstance(self.first, Sliding):
+            return "led by two guides"
+        return "idle: joins what moves together without it"
+
+    @property
+    def words(self) -> str:
+        """Its link, and the pairs that hold it."""
+        held = listed(pair.brief for pair in self.outer)
+        if isinstance(self.first, Sliding):
+            led = f"link {self.link} led by {held}"
+            return f"{led}: both tell how it is turned, so that one is idle"
+        return f"link {self.link} between {held}, which are placed already: it must be idle"
+
+
+class TriedLink(OneLink, frozen=True):
+    """A link whose position in its pair with a known link is tried until the rest closes."""
+
+    pair: Joint
+
+    @property
+    def words(self) -> str:
+        return f"tried at link {self.link} on {self.pair.brief}"
+
+
+def other_of(driver: Driver, link: str) -> str:
+    return driver.against if driver.link == link else driver.link
+
+
+class Geared(OneLink, frozen=True):
+    """A wheel or a rack on a pair with a known link, turned by a contact."""
+
+    pair: Joint
+    contact: Contact
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with known links."""
+        return self.pair, self.contact
+
+    @property
+    def title(self) -> Message:
+        return message(
+            "has a belt with link {name}" if self.is_belted else "rolls on link {name}",
+            name=partner(self.contact, self.link),
+        )
+
+    @property
+    def words(self) -> str:
+        """Its pair, and the contact that moves it."""
+        other = link_words(partner(self.contact, self.link))
+        return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
+
+    @property
+    def is_belted(self) -> bool:
+        """Whether a belt turns it."""
+        return self.contact.rolling.belt is not None
+
+    @property
+    def one_way(self) -> Message:
+        """Why it has only one closure."""
+        return message("link {link} follows from its contact in one way only", link=self.link)
+
+
+class Spun(Struct, frozen=True):
+    """A wheel or bar turned by a driver, on a ``holder`` that follows from its contact.
+
+    The holder, on a known pin, is the arm of a wheel (``held`` by a pin). For a bar that rolls on a
+    drum, it is the block on which the bar slides.
+    """
+
+    link: str
+    driver: Driver
+    holder: str
+    pivot: Pin
+    held: Pin | Sliding
+    contact: Contact
+
+    @property
+    def outer(self) -> tuple[Joint, Joint]:
+        """Its pairs with known links."""
+        return self.pivot, self.contact
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The holder, and the link it holds."""
+        return (self.holder, self.link)
+
+    @property
+    def title(self) -> str:
+        on = partner(self.contact, self.link)
+        return f"link {self.link} turned by its driver, rolling on link {on}"
+
+    @property
+    def words(self) -> str:
+        """Its class, the link it rolls on, and the holder that follows."""
+        other = link_words(partner(self.contact, self.link))
+        follows = f"link {self.holder} on {self.pivot.brief} follows"
+        return f"link {self.link} driven (class I): it rolls on {other}; {follows}"
+
+
+class Train(Struct, frozen=True):
+    """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
+
+    arm: str
+    wheel: str
+    pivot: Pin
+    centre: Pin
+    contacts: tuple[Contact, Contact]
+
+    @property
+    def placed_by(self) -> tuple[Joint, ...]:
+        """Its pairs with known links except the pin."""
+        return self.contacts
+
+    @property
+    def links(self) -> tuple[str, str]:
+        return (self.arm, self.wheel)
+
+    @property
+    def title(self) -> str:
+        links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
+        return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
+
+    @property
+    def words(self) -> str:
+        """Its arm, its wheel, and the links it rolls on."""
+        others = listed(link_words(partner(contact, self.wheel)) for contact in self.contacts)
+        arm = f"arm {self.arm} on {self.pivot.brief}"
+        return f"{arm} with wheel {self.wheel}, which rolls on {others}"
+
+
+class CoupledTrain(Struct, frozen=True):
+    """Wheels that turn one another in a loop: once one link is tried, each follows from the next.
+
+    A contact with a wheel of a known link closes the train.
+    """
+
+    tried: TriedLink
+    chain: tuple[Geared, ...]
+    last: Contact
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """All links, the tried one first."""
+        return (self.tried.link, *(each.link for each in self.chain))
+
+    @property
+    def parts(self) -> tuple[TriedLink | Geared, ...]:
+        """The tried link, and the wheels in turn."""
+        return (self.tried, *self.chain)
+
+    @property
+    def closing(self) -> str:
+        """The link whose wheel touches a known link's wheel in the closing contact."""
+        return next(link for link in self.last.links if link in self.links)
+
+    @property
+    def title(self) -> str:
+        return "coupled train of wheels"
+
+    @property
+    def words(self) -> str:
+        """Its links, the tried one, and the contact that closes it."""
+        names = listed(sorted(self.links, key=natural))
+        start = f"{self.title} (links {names}): {self.tried.words}"
+        return f"{start}, closed by the {self.last.brief}"
+
+
+class PinnedWheel(Struct, frozen=True):
+    """A wheel, or a bar on one, that at the instant turns about its contact with a known link.
+
+    ``own`` is its link, and ``known`` the link that it touches.
+    """
+
+    contact: Contact
+    own: str
+    known: str
+
+    @property
+    def joint(self) -> Joint:
+        """Its pair with the known link."""
+        return self.contact
+
+    @property
+    def three(self) -> set[str | None]:
+        """Its link, the known one, and the arm between them."""
+        return {self.own, self.known, self.contact.arm}
+
+    @property
+    def rim(self) -> Pin:
+        """The pin about which it turns: its own point of contact."""
+        name = ContactName(under(self.contact.letter, self.own))
+        return Pin(name, (self.own, self.known))
 
 
 class Dyad(Struct, frozen=True):

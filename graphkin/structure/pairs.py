@@ -17,6 +17,7 @@ from msgspec import Struct
 from graphkin.scene.link_points import ends_of
 from graphkin.scene.model import (
     FRAME,
+    Driver,
     Link,
     Rolling,
     Scene,
@@ -26,29 +27,8 @@ from graphkin.scene.model import (
     link_words,
     of_one_size,
 )
-from graphkin.structure.turning import body, guides_under, turns
+from graphkin.structure.turning import body
 from graphkin.text.errors import StructureError, both, message
-
-__all__ = [
-    "Contact",
-    "ContactName",
-    "Joint",
-    "Leading",
-    "Pair",
-    "Pin",
-    "PinLine",
-    "Sliding",
-    "all_pairs",
-    "contacts",
-    "guides_under",
-    "is_in_scene",
-    "meshes",
-    "name_words",
-    "pairs",
-    "refuse_loose",
-    "sharers",
-    "turns",
-]
 
 
 class Pin(Struct, frozen=True):
@@ -533,6 +513,32 @@ class Joints:
                 part |= new
             left -= part
             yield part
+
+
+class Placed:
+    """The pairs of a mechanism, its links with known positions, and the drivers not used yet."""
+
+    def __init__(
+        self, joints: Joints, known: Iterable[str], waiting: Iterable[Driver] = ()
+    ) -> None:
+        self.joints, self.known, self.waiting = joints, {*known}, [*waiting]
+        self.scene = joints.scene
+
+    def held(self, link: str) -> tuple[Joint, ...]:
+        """The pairs that join a link to known links; a shared pin counts once."""
+        return self.joints.between(link, self.known)
+
+    def inner(self, first: str, second: str) -> tuple[Joint, ...]:
+        """The pairs between two links, except pins that are already located on known links."""
+        return self.joints.inner(first, second, self.known)
+
+    def unknown(self) -> Iterator[str]:
+        """The links that are not known, in written order."""
+        return self.joints.unknown(self.known)
+
+    def by(self, joints: Joints) -> Placed:
+        """The same links and drivers with other pairs."""
+        return Placed(joints, self.known, self.waiting)
 
 
 def partner(pair: Joint, link: str) -> str:

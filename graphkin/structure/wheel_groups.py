@@ -14,308 +14,40 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from msgspec import Struct
-
 from graphkin.numbers.plane import Line, cross
 from graphkin.scene.expression import CONSTANT, Name, Number, Pair, Tree
-from graphkin.scene.findings import natural, numbered
-from graphkin.scene.link_points import under
-from graphkin.scene.model import FRAME, Driver, Rolling, Scene, link_words, of_one_size
+from graphkin.scene.findings import numbered
+from graphkin.scene.model import FRAME, Driver, Rolling, Scene, of_one_size
 from graphkin.scene.phrases import place_of
 from graphkin.scene.quantity import Quantity, exact
+from graphkin.structure.groups import (
+    CoupledTrain,
+    Driven,
+    Geared,
+    PinnedWheel,
+    Spun,
+    Train,
+    TriedLink,
+)
 from graphkin.structure.pairs import (
     Contact,
-    ContactName,
     Joint,
     Joints,
-    Leading,
     Pin,
+    Placed,
     Sliding,
     contacts,
     partner,
 )
 from graphkin.structure.turning import LEVEL
-from graphkin.text.errors import Message, Problem, StructureError, message
-from graphkin.text.tables import listed
-
-
-class OneLink(Struct, frozen=True):
-    """A group of one link."""
-
-    link: str
-
-    @property
-    def links(self) -> tuple[str]:
-        return (self.link,)
-
-
-class Crank(OneLink, frozen=True):
-    """A link that a driver turns about a pin with known motion.
-
-    Link ``base`` carries the pin. It may be another than the one against which the driver turns.
-    """
-
-    driver: Driver
-    pivot: str
-    base: str
-
-    @property
-    def against(self) -> str:
-        """Words for the reference link of its rotation; empty for the frame."""
-        other = other_of(self.driver, self.link)
-        return "" if other == FRAME else f" against link {other}"
-
-    @property
-    def title(self) -> str:
-        return f"driven by a crank about {self.pivot}" + (self.against and f",{self.against}")
-
-    @property
-    def words(self) -> str:
-        """Its kind, class and order, its links and the pairs that join it."""
-        named = "crank" if self.link == "crank" else f"crank {self.link}"
-        return f"{named} about {self.pivot}{self.against} (class I)"
-
-
-class Driven(OneLink, frozen=True):
-    """A link that a driver moves along a guide or a track of a known link."""
-
-    driver: Driver
-    pair: Leading
-
-    @property
-    def outer(self) -> tuple[Joint]:
-        """Its pair with a known link."""
-        return (self.pair,)
-
-    @property
-    def title(self) -> str:
-        against = other_of(self.driver, self.link)
-        beside = "frame" if against == FRAME else f"link {against}"
-        return f"driven, {self.pair.moving} on {beside}"
-
-    @property
-    def words(self) -> str:
-        """Its kind, class and order, its links and the pairs that join it."""
-        return f"link {self.link} driven (class I): {self.pair.words}"
-
-
-class Tie(OneLink, frozen=True):
-    """A link that two pairs join to known links: idle on two pins, a wedge on two guides."""
-
-    first: Joint
-    second: Joint
-
-    @property
-    def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with known links."""
-        return self.first, self.second
-
-    @property
-    def title(self) -> str:
-        if isinstance(self.first, Sliding):
-            return "led by two guides"
-        return "idle: joins what moves together without it"
-
-    @property
-    def words(self) -> str:
-        """Its link, and the pairs that hold it."""
-        held = listed(pair.brief for pair in self.outer)
-        if isinstance(self.first, Sliding):
-            led = f"link {self.link} led by {held}"
-            return f"{led}: both tell how it is turned, so that one is idle"
-        return f"link {self.link} between {held}, which are placed already: it must be idle"
-
-
-class TriedLink(OneLink, frozen=True):
-    """A link whose position in its pair with a known link is tried until the rest closes."""
-
-    pair: Joint
-
-    @property
-    def words(self) -> str:
-        return f"tried at link {self.link} on {self.pair.brief}"
-
-
-def other_of(driver: Driver, link: str) -> str:
-    return driver.against if driver.link == link else driver.link
-
-
-# --- groups of wheels -----------------------------------------------------------------------------
-
+from graphkin.text.errors import Problem, StructureError, message
 
 FREE = 1e-12
 """Rate of a slip, per unit rate of the tried link, below which it is rounding."""
 
 
-class Geared(OneLink, frozen=True):
-    """A wheel or a rack on a pair with a known link, turned by a contact."""
-
-    pair: Joint
-    contact: Contact
-
-    @property
-    def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with known links."""
-        return self.pair, self.contact
-
-    @property
-    def title(self) -> Message:
-        return message(
-            "has a belt with link {name}" if self.is_belted else "rolls on link {name}",
-            name=partner(self.contact, self.link),
-        )
-
-    @property
-    def words(self) -> str:
-        """Its pair, and the contact that moves it."""
-        other = link_words(partner(self.contact, self.link))
-        return f"link {self.link} on {self.pair.brief}, moved by its contact with {other}"
-
-    @property
-    def is_belted(self) -> bool:
-        """Whether a belt turns it."""
-        return self.contact.rolling.belt is not None
-
-    @property
-    def one_way(self) -> Message:
-        """Why it has only one closure."""
-        return message("link {link} follows from its contact in one way only", link=self.link)
-
-
-class Spun(Struct, frozen=True):
-    """A wheel or bar turned by a driver, on a ``holder`` that follows from its contact.
-
-    The holder, on a known pin, is the arm of a wheel (``held`` by a pin). For a bar that rolls on a
-    drum, it is the block on which the bar slides.
-    """
-
-    link: str
-    driver: Driver
-    holder: str
-    pivot: Pin
-    held: Pin | Sliding
-    contact: Contact
-
-    @property
-    def outer(self) -> tuple[Joint, Joint]:
-        """Its pairs with known links."""
-        return self.pivot, self.contact
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """The holder, and the link it holds."""
-        return (self.holder, self.link)
-
-    @property
-    def title(self) -> str:
-        on = partner(self.contact, self.link)
-        return f"link {self.link} turned by its driver, rolling on link {on}"
-
-    @property
-    def words(self) -> str:
-        """Its class, the link it rolls on, and the holder that follows."""
-        other = link_words(partner(self.contact, self.link))
-        follows = f"link {self.holder} on {self.pivot.brief} follows"
-        return f"link {self.link} driven (class I): it rolls on {other}; {follows}"
-
-
-class Train(Struct, frozen=True):
-    """An arm on a known pin and a wheel on the arm that rolls on two known links (epicyclic)."""
-
-    arm: str
-    wheel: str
-    pivot: Pin
-    centre: Pin
-    contacts: tuple[Contact, Contact]
-
-    @property
-    def placed_by(self) -> tuple[Joint, ...]:
-        """Its pairs with known links except the pin."""
-        return self.contacts
-
-    @property
-    def links(self) -> tuple[str, str]:
-        return (self.arm, self.wheel)
-
-    @property
-    def title(self) -> str:
-        links = " and ".join(partner(contact, self.wheel) for contact in self.contacts)
-        return f"wheel {self.wheel} on arm {self.arm}, between links {links}"
-
-    @property
-    def words(self) -> str:
-        """Its arm, its wheel, and the links it rolls on."""
-        others = listed(link_words(partner(contact, self.wheel)) for contact in self.contacts)
-        arm = f"arm {self.arm} on {self.pivot.brief}"
-        return f"{arm} with wheel {self.wheel}, which rolls on {others}"
-
-
-class CoupledTrain(Struct, frozen=True):
-    """Wheels that turn one another in a loop: once one link is tried, each follows from the next.
-
-    A contact with a wheel of a known link closes the train.
-    """
-
-    tried: TriedLink
-    chain: tuple[Geared, ...]
-    last: Contact
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """All links, the tried one first."""
-        return (self.tried.link, *(each.link for each in self.chain))
-
-    @property
-    def parts(self) -> tuple[TriedLink | Geared, ...]:
-        """The tried link, and the wheels in turn."""
-        return (self.tried, *self.chain)
-
-    @property
-    def closing(self) -> str:
-        """The link whose wheel touches a known link's wheel in the closing contact."""
-        return next(link for link in self.last.links if link in self.links)
-
-    @property
-    def title(self) -> str:
-        return "coupled train of wheels"
-
-    @property
-    def words(self) -> str:
-        """Its links, the tried one, and the contact that closes it."""
-        names = listed(sorted(self.links, key=natural))
-        start = f"{self.title} (links {names}): {self.tried.words}"
-        return f"{start}, closed by the {self.last.brief}"
-
-
-class PinnedWheel(Struct, frozen=True):
-    """A wheel, or a bar on one, that at the instant turns about its contact with a known link.
-
-    ``own`` is its link, and ``known`` the link that it touches.
-    """
-
-    contact: Contact
-    own: str
-    known: str
-
-    @property
-    def joint(self) -> Joint:
-        """Its pair with the known link."""
-        return self.contact
-
-    @property
-    def three(self) -> set[str | None]:
-        """Its link, the known one, and the arm between them."""
-        return {self.own, self.known, self.contact.arm}
-
-    @property
-    def rim(self) -> Pin:
-        """The pin about which it turns: its own point of contact."""
-        name = ContactName(under(self.contact.letter, self.own))
-        return Pin(name, (self.own, self.known))
-
-
 def pinned_wheels(
-    joints: Joints, links: Sequence[str], placing: Collection[Joint], known: Collection[str]
+    placed: Placed, links: Sequence[str], placing: Collection[Joint]
 ) -> tuple[PinnedWheel, ...]:
     """The wheels or bars of a group that touch known links in rolling contact.
 
@@ -325,11 +57,11 @@ def pinned_wheels(
     return tuple(
         PinnedWheel(pair, link, partner(pair, link))
         for link in links
-        for pair in joints.others[link]
+        for pair in placed.joints.others[link]
         if isinstance(pair, Contact)
         and pair.rolling.belt is None
         and pair in placing
-        and partner(pair, link) in known
+        and partner(pair, link) in placed.known
         and (pair.arm in links or (pair.track is None and pair.links[0] == link))
     )
 
@@ -342,17 +74,17 @@ def turned_wheel(joints: Joints, driver: Driver, link: str) -> Driven | None:
     return None
 
 
-def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> Spun | None:
+def spun(placed: Placed, driver: Driver, link: str) -> Spun | None:
     """A link that a driver turns and that rolls on a known wheel, on an arm or block of its own."""
-    joined = joints.between(link, known)
+    joined = placed.held(link)
     if len(joined) != 1 or not isinstance(joined[0], Contact) or joined[0].alike:
         return None
     if driver.link != link:
         return None
     contact, holder = joined[0], joined[0].arm
-    if holder is None or holder in known:
+    if holder is None or holder in placed.known:
         return None
-    pivots, held = joints.between(holder, known), joints.inner(link, holder, known)
+    pivots, held = placed.held(holder), placed.inner(link, holder)
     if len(pivots) != 1 or len(held) != 1 or not isinstance(pivots[0], Pin):
         return None
     rolls = isinstance(held[0], Pin) if contact.track else contact.links[1] == link
@@ -362,17 +94,14 @@ def spun(joints: Joints, known: Collection[str], driver: Driver, link: str) -> S
     return Spun(link, driver, holder, pivots[0], held[0], contact)
 
 
-def train_with(
-    joints: Joints, known: Collection[str], arm: str, left: tuple[Joint, ...]
-) -> Train | None:
+def train_with(placed: Placed, arm: str, left: tuple[Joint, ...]) -> Train | None:
     """The arm of a planet that rolls on two known links, such as a sun and a ring."""
     if len(left) != 1 or not isinstance(left[0], Pin):
         return None
-    for wheel in joints.neighbours(arm):
-        if wheel in known:
+    for wheel in placed.joints.neighbours(arm):
+        if wheel in placed.known:
             continue
-        inner = joints.inner(arm, wheel, known)
-        outer = joints.between(wheel, known)
+        inner, outer = placed.inner(arm, wheel), placed.held(wheel)
         rolled = [pair for pair in outer if isinstance(pair, Contact) and not pair.alike]
         contacts = [pair for pair in rolled if pair.arm == arm]
         if len(inner) == 1 and isinstance(inner[0], Pin) and len(contacts) == len(outer) == 2:
@@ -414,32 +143,32 @@ def tracks_held(joints: Joints, links: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(link for link in tracks if link in links))
 
 
-def wedged_wheels(joints: Joints, known: Collection[str], links: Sequence[str]) -> tuple[str, ...]:
+def wedged_wheels(placed: Placed, links: Sequence[str]) -> tuple[str, ...]:
     """The links that roll on several straight tracks of known links."""
     straight = {
-        link: [p for p in joints.between(link, known) if isinstance(p, Contact) and not p.track]
+        link: [p for p in placed.held(link) if isinstance(p, Contact) and not p.track]
         for link in links
     }
     return tuple(link for link, pairs in straight.items() if len(pairs) > 1)
 
 
-def let_slip(joints: Joints, known: Collection[str]) -> Joints:
-    """The pairs without the wheels that determine nothing until their arm is known."""
-    every = [pair for pairs in joints.others.values() for pair in pairs]
+def let_slip(placed: Placed) -> Placed:
+    """The mechanism without the wheels that determine nothing until their arm is known."""
+    every = [pair for pairs in placed.joints.others.values() for pair in pairs]
     rolling = (pair for pair in every if isinstance(pair, Contact) and pair.arm is not None)
-    return joints.without([pair for pair in rolling if pair.arm not in known])
+    loose = [pair for pair in rolling if pair.arm not in placed.known]
+    return placed.by(placed.joints.without(loose))
 
 
-def over_rolled(
-    joints: Joints, known: Collection[str], grown: Collection[str], chain: Sequence[Any]
-) -> Contact | None:
+def over_rolled(placed: Placed, grown: Placed, chain: Sequence[Any]) -> Contact | None:
     """A wheel that is known with all that it touches, but whose rolling is not used yet."""
     used = [pair for group in chain for pair in rolled_by(group)]
-    for link in (each for each in joints.unknown(known) if each in grown):
+    joints = grown.joints
+    for link in (each for each in joints.unknown(placed.known) if each in grown.known):
         for pair in joints.others[link]:
             if not isinstance(pair, Contact) or pair.arm is None or pair.alike or pair in used:
                 continue
-            if pair.needs <= {*grown} and not keeps_parallel(joints, pair):
+            if pair.needs <= grown.known and not keeps_parallel(joints, pair):
                 return pair
     return None
 
@@ -488,56 +217,53 @@ def rolled_by(group: Any) -> Iterator[Contact]:
     yield from (pair for pair in (*pairs, last) if isinstance(pair, Contact))
 
 
-def next_coupled(joints: Joints, known: Collection[str], idle: bool = False) -> CoupledTrain | None:
+def next_coupled(placed: Placed, *, idle: bool = False) -> CoupledTrain | None:
     """The train of fewest links that closes once one link on a known pin is tried.
 
     A train whose ratios cancel closes in every position of the link, and so does not determine it.
     An example is two planets between one sun and one ring. With ``idle`` only these are found,
     otherwise only others.
     """
-    contacts = [*left_over(joints, known)]
+    contacts = [*left_over(placed)]
     if not contacts:
         return None
     found = (
         train
-        for link in joints.unknown(known)
-        for pin in pins_held(joints, known, link)
+        for link in placed.unknown()
+        for pin in pins_held(placed, link)
         for last in contacts
-        if (train := closed(joints, known, TriedLink(link, pin), last))
-        and idle == cancels(joints.scene, train)
+        if (train := closed(placed, TriedLink(link, pin), last))
+        and idle == cancels(placed.scene, train)
     )
     return min(found, key=lambda train: len(train.links), default=None)
 
 
-def left_over(joints: Joints, known: Collection[str]) -> Iterator[Contact]:
+def left_over(placed: Placed) -> Iterator[Contact]:
     """The contacts of wheels with known ones, about arms that are not known yet."""
-    for link in joints.unknown(known):
-        for pair in joints.others[link]:
+    for link in placed.unknown():
+        for pair in placed.joints.others[link]:
             if not isinstance(pair, Contact) or pair.track is None or pair.alike:
                 continue
-            if pair.arm in known:
-                continue
-            if partner(pair, link) in known:
+            if pair.arm not in placed.known and partner(pair, link) in placed.known:
                 yield pair
 
 
-def pins_held(joints: Joints, known: Collection[str], link: str) -> list[Pin]:
+def pins_held(placed: Placed, link: str) -> list[Pin]:
     """The one pin that holds a link, if nothing else removes two freedoms."""
-    held = [pair for pair in joints.between(link, known) if pair.taken == 2]
+    held = [pair for pair in placed.held(link) if pair.taken == 2]
     return [pair for pair in held if isinstance(pair, Pin)] if len(held) == 1 else []
 
 
-def closed(
-    joints: Joints, known: Collection[str], tried: TriedLink, last: Contact
-) -> CoupledTrain | None:
+def closed(placed: Placed, tried: TriedLink, last: Contact) -> CoupledTrain | None:
     """The train formed by a tried link and a last contact, wheel after wheel, or None."""
-    grown, chain, ends = {*known, tried.link}, list[Geared](), {*last.links, last.arm}
-    while not ends <= {*grown}:
-        wheel = next_wheel(joints, grown, last)
+    grown = Placed(placed.joints, {*placed.known, tried.link})
+    chain, ends = list[Geared](), {*last.links, last.arm}
+    while not ends <= grown.known:
+        wheel = next_wheel(grown, last)
         if wheel is None:
             return None
         chain.append(wheel)
-        grown.add(wheel.link)
+        grown.known.add(wheel.link)
     needs, kept = ends, list[Geared]()
     for each in reversed(chain):
         if each.link in needs:
@@ -546,11 +272,11 @@ def closed(
     return CoupledTrain(tried, tuple(kept), last) if tried.link in needs else None
 
 
-def next_wheel(joints: Joints, known: Collection[str], last: Contact) -> Geared | None:
+def next_wheel(placed: Placed, last: Contact) -> Geared | None:
     """The first wheel, in written order, that a wheel of a known link turns about a known pin."""
-    for link in joints.unknown(known):
-        joined = tuple(pair for pair in joints.between(link, known) if pair != last)
-        wheel = geared_of(link, joined, known)
+    for link in placed.unknown():
+        joined = tuple(pair for pair in placed.held(link) if pair != last)
+        wheel = geared_of(link, joined, placed.known)
         if wheel is None or wheel.contact.track is None or wheel.contact.alike:
             continue
         if isinstance(wheel.pair, Pin):

@@ -309,8 +309,8 @@ def built(text: str, act: Act) -> Built:
         tables = tables_of(text)
         document = tomlkit.parse(text)
     except TOMLKitError:
-        raise SceneError(
-            Problem("text", message("is no TOML"), NO_WORDS, message("mend its mistakes first"))
+        raise SceneError.at(
+            "text", message("is no TOML"), NO_WORDS, message("mend its mistakes first")
         ) from None
     refuse_shapes(tables)
     places = {**act.places, **frame_places(tables)}
@@ -413,17 +413,15 @@ class Builder:
     def place(self, point: str) -> complex:
         """The place of a point. Raises SceneError for a point that is not in the field."""
         if point not in self.places:
-            raise SceneError(
-                Problem(point, message("is at no known place"), message("a point that is drawn"))
+            raise SceneError.at(
+                point, message("is at no known place"), message("a point that is drawn")
             )
         return self.places[point]
 
     def known_link(self, name: str) -> Any:
         """The table of a link. Raises SceneError for a missing link."""
         if name not in self.links:
-            raise SceneError(
-                Problem(link_words(name), message("is not there"), message("a moving link"))
-            )
+            raise SceneError.at(link_words(name), message("is not there"), message("a moving link"))
         return self.document["links"][name]
 
 
@@ -458,11 +456,11 @@ def refuse_bar(work: Builder, start: str, end: str) -> None:
     """Raise SceneError where two pins cannot be the ends of a bar."""
     line = f"{start}-{end}"
     if start == end:
-        raise SceneError(Problem(line, message("begins and ends at one pin"), message("two pins")))
+        raise SceneError.at(line, message("begins and ends at one pin"), message("two pins"))
     for name, points in {FRAME: work.fixed, **work.links}.items():
         if start in points and end in points:
             found = message("both pins belong to {name}", name=link_words(name))
-            raise SceneError(Problem(line, found, message("pins of two links")))
+            raise SceneError.at(line, found, message("pins of two links"))
 
 
 def plate(work: Builder, act: Act) -> None:
@@ -474,7 +472,7 @@ def plate(work: Builder, act: Act) -> None:
         return
     if len(points) < 2:
         expected = message("a link with two pins at least")
-        raise SceneError(Problem(link_words(act.of[0]), message("has one pin alone"), expected))
+        raise SceneError.at(link_words(act.of[0]), message("has one pin alone"), expected)
     first, second = points[:2]
     start, end = work.place(first), work.place(second)
     name, across = work.point_name(), (act.at - start) / (end - start)
@@ -519,7 +517,7 @@ def wheel(work: Builder, act: Act) -> None:
             found = message(
                 "{centre} lies inside the wheel of link {link}", centre=centre, link=other.link
             )
-            raise SceneError(Problem("wheel", found, message("a centre outside it")))
+            raise SceneError.at("wheel", found, message("a centre outside it"))
         rolls: dict[str, Any] = {"on": key_of(other.link)}
     else:
         radius = work.length(abs(act.at - at))
@@ -541,7 +539,7 @@ def meeting(work: Builder, link: str, at: complex) -> DrawnWheel:
     placed = [each for each in all_wheels if each.centre in work.places]
     if not placed or any(abs(at - work.place(each.centre)) < work.grid for each in placed):
         found = message("cannot roll on link {link} from here", link=link)
-        raise SceneError(Problem("wheel", found, message("a wheel about another centre")))
+        raise SceneError.at("wheel", found, message("a wheel about another centre"))
     return min(placed, key=lambda each: abs(abs(at - work.place(each.centre)) - each.radius))
 
 
@@ -554,22 +552,17 @@ def block(work: Builder, act: Act) -> None:
         ends = work.links[rest[0]]
         if point in ends:
             found = message("{point} is a pin of link {name} itself", point=point, name=rest[0])
-            raise SceneError(Problem("block", found, message("the guide of another link")))
+            raise SceneError.at("block", found, message("the guide of another link"))
         if len(ends) < 2:
-            raise SceneError(
-                Problem("block", message("link {name} has no line", name=rest[0]), message("a bar"))
+            raise SceneError.at(
+                "block", message("link {name} has no line", name=rest[0]), message("a bar")
             )
         slides.update({"on": key_of(rest[0]), "along": "-".join(ends[:2])})
     else:
         if point in work.fixed:
             hint = message("press on a moving pin")
-            raise SceneError(
-                Problem(
-                    "block",
-                    message("{point} is fixed", point=point),
-                    message("a pin that moves"),
-                    hint,
-                )
+            raise SceneError.at(
+                "block", message("{point} is fixed", point=point), message("a pin that moves"), hint
             )
         at = work.place(point)
         slides.update(
@@ -583,12 +576,10 @@ def block(work: Builder, act: Act) -> None:
     if any(
         "slides" in tables[name] and points[:1] == [point] for name, points in work.links.items()
     ):
-        raise SceneError(
-            Problem(
-                "block",
-                message("{point} has a block already", point=point),
-                message("one block at a pin"),
-            )
+        raise SceneError.at(
+            "block",
+            message("{point} has a block already", point=point),
+            message("one block at a pin"),
         )
     _, table = work.new_link()
     table[point] = work.pair(0j)
@@ -603,8 +594,8 @@ def driver(work: Builder, act: Act) -> None:
     lone = len(points) < 2
     if not set(points) & set(work.fixed) or (lone and "wheel" not in work.document["links"][name]):
         hint = message("a bar that turns about a fixed pin can be driven")
-        raise SceneError(
-            Problem(link_words(name), message("is at no fixed pin"), message("a crank"), hint)
+        raise SceneError.at(
+            link_words(name), message("is at no fixed pin"), message("a crank"), hint
         )
     if "drivers" not in work.document:
         work.document.add(tomlkit.nl())
@@ -613,8 +604,8 @@ def driver(work: Builder, act: Act) -> None:
     known = next((each for each in drivers if str(each.get("turn")) == name), None)
     if known is not None:
         if known.get("speed") == number(act.speed) or not is_number(raw(known.get("speed"))):
-            raise SceneError(
-                Problem(link_words(name), message("is driven already"), message("another link"))
+            raise SceneError.at(
+                link_words(name), message("is driven already"), message("another link")
             )
         known["speed"] = number(act.speed)
         return
@@ -631,7 +622,7 @@ def move(work: Builder, act: Act) -> None:
     work.place(point)
     if not moved(work, point, act.at):
         found = message("its place follows from expressions or from the rest")
-        raise SceneError(Problem(point, found, message("a point whose lengths are numbers")))
+        raise SceneError.at(point, found, message("a point whose lengths are numbers"))
 
 
 def moved(work: Builder, point: str, at: complex) -> bool:
@@ -640,10 +631,8 @@ def moved(work: Builder, point: str, at: complex) -> bool:
     work.places[point] = at
     if point in frame:
         if not is_place(frame[point]):
-            raise SceneError(
-                Problem(
-                    f"frame.{point}", message("is written as an expression"), message("numbers")
-                )
+            raise SceneError.at(
+                f"frame.{point}", message("is written as an expression"), message("numbers")
             )
         frame[point] = work.pair(at)
         work.places[point] = complex(*frame[point])
@@ -686,12 +675,12 @@ def refuse_join(work: Builder, first: str, second: str) -> None:
     """Raise SceneError where two pins cannot be joined."""
     pins = both((first, second))
     if first == second:
-        raise SceneError(Problem(first, message("is one pin already"), message("another pin")))
+        raise SceneError.at(first, message("is one pin already"), message("another pin"))
     bodies = {FRAME: work.fixed, **work.links}
     for name, points in bodies.items():
         if first in points and second in points:
             found = message("belong both to {name}", name=link_words(name))
-            raise SceneError(Problem(pins, found, message("pins of two links")))
+            raise SceneError.at(pins, found, message("pins of two links"))
     tables = links_of(work.document)
     ones = [name for name, points in bodies.items() if first in points]
     others = [name for name, points in bodies.items() if second in points]
@@ -699,12 +688,12 @@ def refuse_join(work: Builder, first: str, second: str) -> None:
         if {*bodies[one]} & {*bodies[other]}:
             names = both((link_words(one), link_words(other)))
             found = message("{names} would share two pins and be one body", names=names)
-            raise SceneError(Problem(pins, found, message("links that share one pin")))
+            raise SceneError.at(pins, found, message("links that share one pin"))
         for block, guide in ((one, other), (other, one)):
             slides = raw(tables.get(block, {}).get("slides"))
             if isinstance(slides, Mapping) and str(slides.get("on")) == guide:
                 found = message("the block {block} would be pinned to its own guide", block=block)
-                raise SceneError(Problem(pins, found, message("a pin of another link")))
+                raise SceneError.at(pins, found, message("a pin of another link"))
 
 
 def turned_driver(work: Builder, link: str, point: str) -> bool:

@@ -23,7 +23,7 @@ from graphkin.importing.formats import content, imported, is_drawing, text_of
 from graphkin.importing.scene_text import scene_text
 from graphkin.scene import scene_files
 from graphkin.scene.file_limits import LARGEST, decoded, read_bytes, tables_of
-from graphkin.text.errors import NO_WORDS, Message, Problem, SceneError, joined, message, verbatim
+from graphkin.text.errors import NO_WORDS, Message, SceneError, joined, message, verbatim
 from graphkin.text.problems import spoken
 from graphkin.writers.files import RESERVED
 
@@ -66,9 +66,7 @@ class Folder:
                 ending=ENDING,
                 name=meant(name),
             )
-            raise SceneError(
-                Problem("file", problem or message("leads out of the folder"), expected)
-            )
+            raise SceneError.at("file", problem or message("leads out of the folder"), expected)
         return target
 
     def lab_path(self, name: str) -> Path:
@@ -84,17 +82,15 @@ class Folder:
                 name=stem_of(name),
                 scene=SCENE,
             )
-            raise SceneError(
-                Problem(
-                    "file",
-                    message("{name} has no {lab}", name=scene.name, lab=scene_files.LAB),
-                    expected,
-                )
+            raise SceneError.at(
+                "file",
+                message("{name} has no {lab}", name=scene.name, lab=scene_files.LAB),
+                expected,
             )
         path = scene.with_name(scene_files.LAB)
         if not path.resolve().is_relative_to(self.root):
             found = message("the {lab} beside it leads out of the folder", lab=scene_files.LAB)
-            raise SceneError(Problem("file", found, message("a file within this folder")))
+            raise SceneError.at("file", found, message("a file within this folder"))
         return path
 
     def rules(self, name: str) -> str:
@@ -127,12 +123,10 @@ class Folder:
         path = self.path(name)
         scene_files.settle(path)
         if not path.is_file():
-            raise SceneError(
-                Problem(
-                    "file",
-                    message("there is no file {name} here", name=name),
-                    message("one that is listed"),
-                )
+            raise SceneError.at(
+                "file",
+                message("there is no file {name} here", name=name),
+                message("one that is listed"),
             )
         return decoded(read_bytes(path))
 
@@ -145,10 +139,8 @@ class Folder:
         found = path.resolve()
         if not found.is_relative_to(self.root):
             hint = message("start the studio in {parent}", parent=found.parent)
-            raise SceneError(
-                Problem(
-                    str(path), message("lies outside this folder"), verbatim(str(self.root)), hint
-                )
+            raise SceneError.at(
+                str(path), message("lies outside this folder"), verbatim(str(self.root)), hint
             )
         return found.relative_to(self.root).as_posix()
 
@@ -221,12 +213,8 @@ def title_in(path: Path, language: str) -> str:
 def shipped_text(name: str) -> str:
     """The text of the scene of a lab of graphkin. Raises SceneError for an unknown lab."""
     if name not in scene_files.names():
-        raise SceneError(
-            Problem(
-                "lab",
-                message("there is no lab {name}", name=name),
-                joined(", ", scene_files.names()),
-            )
+        raise SceneError.at(
+            "lab", message("there is no lab {name}", name=name), joined(", ", scene_files.names())
         )
     return decoded(read_bytes(scene_files.shelf() / name / SCENE))
 
@@ -235,12 +223,8 @@ def example_text(name: str) -> str:
     """The text of another scene that comes with graphkin. Raises SceneError for an unknown name."""
     found = scene_files.examples().get(name)
     if found is None:
-        raise SceneError(
-            Problem(
-                "scene",
-                message("there is no scene {name}", name=name),
-                message("one that is listed"),
-            )
+        raise SceneError.at(
+            "scene", message("there is no scene {name}", name=name), message("one that is listed")
         )
     return decoded(read_bytes(found))
 

@@ -25,16 +25,17 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.classroom.lab.fair_ranges import FairRanges, fair_ranges
-from graphkin.classroom.lab.fairness_words import (
+from graphkin.classroom.lab.lab_model import Lab, exact_text
+from graphkin.classroom.lab.lab_trial import (
+    LabTrial,
     broken_table,
     fault_words,
     scale_table,
     some,
     spread_table,
     spreads_of,
+    tried,
 )
-from graphkin.classroom.lab.lab_model import Lab, exact_text
-from graphkin.classroom.lab.lab_trial import LabTrial, tried
 from graphkin.classroom.lab.new_lab import (
     APART,
     FormulaFaults,

@@ -291,9 +291,7 @@ def served(
         from waitress import create_server
     except ImportError:
         hint = message("install them: pip install 'graphkin[studio]'")
-        raise PageError(
-            Problem("studio", message("needs bottle and waitress"), hint=hint)
-        ) from None
+        raise PageError.at("studio", message("needs bottle and waitress"), hint=hint) from None
 
     logging.getLogger("waitress.queue").setLevel(logging.ERROR)  # a waiting request is no news
     listening = listener(port)

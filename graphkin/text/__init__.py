@@ -14,8 +14,14 @@ LANGUAGES = ("de", "en", "es", "fr", "it", "ro", "ru")
 ENGLISH = "en"
 """The language of the sentences that another one does not have yet."""
 MINUS = "\N{MINUS SIGN}"
+IMPERIAL = ("in", "ft")
+"""The units of length in which forces are in pounds, and results are printed if none are stated."""
+MECHANICAL = {"kg·m²": "{force}·s²·{length}", "kg": "{force}·s²/{length}"}
+"""The coherent units of inertia and mass in other units of length than metres."""
 METRE = r"(?<![\w*{'’])m(?=/s|/mm|$)"
 """A metre in a unit: m, m/s, (m/s²)/mm, m/mm."""
+NEWTON = r"(?<![\w*{{’]){N}(?=/{mm})"
+"""A newton in the unit of a scale factor in a sentence, with the letters of the language."""
 RATE = r"(?<![\w*{{'’]){m}(?=/{s})"
 """A metre in a unit in a sentence, with the letters of the language."""
 UNIT_LETTERS: Mapping[str, Mapping[str, str]] = {
@@ -33,9 +39,14 @@ UNIT_LETTERS: Mapping[str, Mapping[str, str]] = {
         "N": "Н",
         "kN": "кН",
         "kg": "кг",
+        "lb": "фунт",
+        "lbf": "фунт-сила",
     }
 }
 """How languages write the parts of units: GOST 8.417-2002 has Cyrillic letters."""
+NARROW = "\N{NARROW NO-BREAK SPACE}"
+FRENCH = " (?=[;:?!»])|(?<=«) "
+"""The blanks of a French sentence that end no line."""
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 EUPHONIC = r"(?<!\S)([ae]) (?=\*?(?i:\1))"
 """The Italian words for "to" and "and" before a word that begins with the same vowel."""
@@ -73,17 +84,35 @@ class Words:
         from pathlib import Path
 
         text = (Path(__file__).parent / f"{self.language}.toml").read_text(encoding="utf-8")
-        found = Sentences(flattened(tomllib.loads(text)))
+        found = Sentences(
+            (key, spaced(said) if self.language == "fr" else said)
+            for key, said in flattened(tomllib.loads(text))
+        )
         if self.signs is USUAL and self.length == "m":
             return found
         signed = {key: self.signs.in_sentence(said) for key, said in found.items()}
         rate = RATE.format(m=self.spelled("m"), s=self.spelled("s"))
         length = self.spelled(self.length)
-        return Sentences({key: re.sub(rate, length, said) for key, said in signed.items()})
+        newton = NEWTON.format(N=self.spelled("N"), mm=self.spelled("mm"))
+        return Sentences(
+            {
+                key: re.sub(newton, self.force, re.sub(rate, length, said))
+                for key, said in signed.items()
+            }
+        )
+
+    @property
+    def force(self) -> str:
+        """The unit of forces that goes with the unit of lengths."""
+        return self.spelled("lbf" if self.length in IMPERIAL else "N")
 
     def unit(self, unit: str) -> str:
-        """A unit of results, whose metres are these lengths: in/s for m/s."""
-        return self.spelled(unit if self.length == "m" else re.sub(METRE, self.length, unit))
+        """A unit of results, whose metres are these lengths: in/s for m/s, lbf·in for N·m."""
+        if self.length == "m":
+            return self.spelled(unit)
+        own = MECHANICAL.get(unit, re.sub(METRE, self.length, unit))
+        own = own.format(force="N", length=self.length)
+        return self.spelled(re.sub(r"\bN\b", self.force, own))
 
     def spelled(self, unit: str) -> str:
         """A unit as it is in the letters of the language: мм/с for mm/s in Russian."""
@@ -108,6 +137,10 @@ class Words:
     def open(self, key: str) -> str:
         """The sentence under a key, with its fields unchanged for a page to fill in."""
         return self(key, **{name: f"{{{name}}}" for name in self.gaps(key)})
+
+    def clauses(self, parts: Iterable[str]) -> Markup:
+        """Clauses in one sentence."""
+        return self("clause_mark").join(parts)
 
     def has(self, key: str) -> bool:
         """Whether there is a sentence under a key."""
@@ -154,6 +187,11 @@ def words(language: str, signs: SchoolSigns = USUAL, length: str = "m") -> Words
     if language not in LANGUAGES:
         raise KeyError(language)
     return Words(language, USUAL if signs == USUAL else signs, length)
+
+
+def spaced(sentence: str) -> str:
+    """A French sentence, whose blanks at ; : ? ! and inside « » are narrow and end no line."""
+    return re.sub(FRENCH, NARROW, sentence)
 
 
 def keys() -> list[str]:
@@ -217,8 +255,6 @@ def as_text(value: object) -> str:
 
 NOTHING = Markup()
 """The empty separator."""
-AND = Markup("; ")
-"""The separator of clauses in one sentence."""
 COMMA = Markup(", ")
 """The separator of a list."""
 EQUALS = Markup(" = ")

@@ -10,10 +10,9 @@ from typing import Any
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from graphkin.construction.core.auxiliary_plan import auxiliary_plan
 from graphkin.construction.core.component import TriangleComponent
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import construction
+from graphkin.construction.core.kind import auxiliary_plan, construction
 from graphkin.construction.core.layout import Layout
 from graphkin.construction.core.link_poses import Disc, Touch
 from graphkin.construction.core.paper_canvas import above_foot, inside, stretched

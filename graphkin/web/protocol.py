@@ -13,11 +13,16 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from graphkin.construction.centres.instant_centre import VelocityNormal
-from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.component import component_of, is_hidden
 from graphkin.construction.core.crossings import Crossing, crossings
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import GivesRate, Sentence, construction
+from graphkin.construction.core.kind import (
+    AuxiliaryPlan,
+    GivesRate,
+    Sentence,
+    auxiliary_plan,
+    construction,
+)
 from graphkin.construction.core.naming import segment_of
 from graphkin.construction.core.program import Part, Plane, Program, Step, is_set_on, plan_vector
 from graphkin.construction.higher_class.divided_point import DividedPoint
@@ -42,7 +47,7 @@ from graphkin.documents.step_pages import accompanied, ground_of, naming_stages,
 from graphkin.drawing.marks import CircleMark, Mark, Text, style_class
 from graphkin.drawing.style import DRAWN
 from graphkin.numbers.plane import Line
-from graphkin.text import AND, EQUALS, names_in
+from graphkin.text import EQUALS, names_in
 from graphkin.web.screen_sheets import ScreenSheet
 
 AGAIN = {
@@ -184,7 +189,7 @@ class PartedSentence(Struct, frozen=True):
             yield self.said, len(self.parts)
             return
         for place, some in enumerate(grouped(self.parts, strokes)):
-            markup: str = AND.join(part.markup for part in some)
+            markup: str = drawing.words.clauses(part.markup for part in some)
             name = some[-1].name
             if self.plan is not None:
                 begins = place == 0 and self.plan.begins(drawing, self.said.all_steps)
@@ -255,7 +260,7 @@ def readings(drawing: Drawing) -> Iterator[SentencePart]:
     for relation in of_turning(drawing):
         if (step := steps.get(relation.left)) is not None:
             solved = " ".join(relation.parts(solved=True))
-            markup = f"{how}: {solved}" if how else solved
+            markup = f"{how}{drawing.words('colon')}{solved}" if how else solved
             yield SentencePart(step, step, markup, TURNING, reason=relation.reason)
             how = ""
 
@@ -370,7 +375,8 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
         seen = {one.step for one in marks if one.step is not None}
         said += spoken(place, sheet.drawing, own, staged, labels, seen)
         details = (scale_words(times) for times in sheet.enlarged)
-        in_details = AND.join(sheet.drawing.words("screen.detail", scale=each) for each in details)
+        words = sheet.drawing.words
+        in_details = words.clauses(words("screen.detail", scale=each) for each in details)
         said[-1] = replace(said[-1], aside=in_details)
     shown = sorted({mark.step for marks in timed for mark in marks if mark.step is not None})
     ran = {step for sheet in sheets for step in sheet.drawing.trace.values}
@@ -449,7 +455,7 @@ def vectors_apart(
             if setting:
                 markup = set_on_mechanism(drawing, "", some)
             else:
-                markup = AND.join(vector_found(drawing, number) for number in some)
+                markup = drawing.words.clauses(vector_found(drawing, number) for number in some)
             moved |= dict.fromkeys(some, len(found))
             found.append(Sentence(some[-1], name, markup, tuple(some)))
     later_own = {step: places[at] if at >= 0 else at for step, at in own.items()} | moved
@@ -541,7 +547,9 @@ def spoken(
         markup = sentence.markup
         yield ProtocolSentence(
             place,
-            AND.join((markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))),
+            drawing.words.clauses(
+                (markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))
+            ),
             tuple(text for text, _ in why),
             tuple(shown_by(drawing, step, fresh, shown) for _, step in why),
             tuple(found),

@@ -435,7 +435,7 @@ def common(sheets: Sequence[ScreenSheet]) -> dict[str, object]:
         "title": title_of(drawing),
         "words": words,
         "bar": BAR,
-        "verdict": "; ".join(checked(drawing)),
+        "verdict": words.clauses(checked(drawing)),
     }
 
 

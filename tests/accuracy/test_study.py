@@ -14,8 +14,7 @@ from matplotlib.figure import Figure
 
 from graphkin.accuracy.comparison import approach, ground_of, places_around
 from graphkin.accuracy.methods import BITS, DIGITS, QUICK, STEPS, TOLERANCES, MethodRow, plain
-from graphkin.accuracy.study import LAW, Study, study
-from graphkin.accuracy.study_pictures import digits_of, methods_picture
+from graphkin.accuracy.study import LAW, Study, digits_of, methods_picture, study
 from graphkin.cli.report.accuracy_report import HEADS, accuracy_table
 from graphkin.documents.sheet_documents import scales
 from graphkin.mechanism import load

@@ -23,6 +23,7 @@ from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from time import process_time
@@ -109,13 +110,17 @@ WRONG = "long", "short", "turned", "exchanged", *PLANS
 """What alone may be wrong on the sheets of a run."""
 
 
-def habits_of(i: int, rng: Any, wrong: Sequence[str]) -> Habits:
-    """How the i-th student draws; only one thing is wrong if ``wrong`` lists such things."""
+def turn_of(i: int, labs: Sequence[str], wrong: Sequence[str], seed: int) -> tuple[str, str]:
+    """The lab of the i-th picture and what is wrong on it: each pair once a round, in any order."""
+    pairs = list(product(labs, wrong or ("",)))
+    past, now = divmod(i, len(pairs))
+    return pairs[int(np.random.default_rng([seed, past]).permutation(len(pairs))[now])]
+
+
+def habits_of(i: int, rng: Any, end: str) -> Habits:
+    """How the i-th student draws; if an ``end`` is given, that alone is wrong."""
     drawn = usual_habits(i, rng)
-    if not wrong:
-        return drawn
-    end = wrong[i % len(wrong)]
-    return replace(drawn, end=end, mistake=False, missing=False, headless=0.0)
+    return replace(drawn, end=end, mistake=False, missing=False, headless=0.0) if end else drawn
 
 
 def usual_habits(i: int, rng: Any) -> Habits:
@@ -160,12 +165,12 @@ def take(classes: dict[str, Path], where: Path, seed: int, wrong: Sequence[str],
     if truth.exists():
         return
     rng = np.random.default_rng([i, seed])
-    lab = list(classes)[i % len(classes)]
+    lab, end = turn_of(i, list(classes), wrong, seed)
     variants = list(read_order(read_edition(classes[lab]), Grid()).takers)
     code = variants[(i // len(classes)) % len(variants)]
     kinds = [each.kind for each in sheets_of(classes[lab], code).drawings]
     kind = kinds[int(rng.integers(len(kinds)))]
-    habits = habits_of(i, rng, wrong)
+    habits = habits_of(i, rng, end)
     try:
         drawing = drawn_sheet(classes[lab], code, kind, habits, 1000 * seed + i)
     except AssertionError:

@@ -17,6 +17,11 @@ ARGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 ARGS += ["--disable-background-networking", "--disable-component-update", "--disable-sync"]
 ARGS += ["--disable-site-isolation-trials", "--renderer-process-limit=1"]
 """All pages are drawn in one process: a new one for each studio's port costs more than the page."""
+OFF = ("WebUIOmniboxPopup", "WebUIOmniboxAimPopup", "AimEnabled", "PaintHolding", "HttpsUpgrades")
+OFF += ("MediaRouter", "OptimizationHints", "LensOverlay", "DestroyProfileOnBrowserClose")
+ARGS += [f"--disable-features={','.join(OFF)}"]
+"""Suggestions below the address take longer in each new window than a page in it. Only the last
+list counts: the others are of Playwright's own."""
 
 Opened = Callable[..., Any]
 LONG = 300_000

@@ -16,6 +16,7 @@ from graphkin.web.step_page import force_sheet
 from graphkin.web.your_turn import PaletteMove, YourTurn, your_turn
 from tests.browser.drawing_hand import DrawingHand, TypingHand
 from tests.browser.opening import Opened, barred
+from tests.chosen import by_turns
 from tests.running import Run
 
 SCENES = Path(__file__).resolve().parents[1] / "scenes" / "forces"
@@ -51,8 +52,7 @@ def test_the_polygons_of_forces_draw_themselves(
     assert not barred(page)
 
 
-@pytest.mark.parametrize("hand", [DrawingHand, TypingHand])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("name", "hand"), by_turns(NAMES, [DrawingHand, TypingHand]))
 def test_a_student_draws_every_polygon(
     opened: Opened, run: Run, tmp_path: Path, name: str, hand: Any
 ):

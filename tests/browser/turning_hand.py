@@ -43,7 +43,8 @@ SPOT = """([side, own, rivals]) => {
   }
   const inside = ([u, v]) => u > x + 2 && u < x + width - 2 && v > y + 2 && v < y + height - 2;
   const free = place => Math.min(...others.map(other => off(place, other)), 1e6);
-  const best = found.filter(inside).sort((p, q) => free(q) - free(p))[0];
+  const places = found.filter(inside), room = places.map(free);
+  const best = places[room.indexOf(Math.max(...room))];
   const point = new DOMPoint(...best).matrixTransform(matrix);
   return [point.x, point.y];
 }"""
@@ -55,9 +56,12 @@ class TurningHand:
     def __init__(self, page: Any, sheets: list[ScreenSheet], turn: YourTurn, way: str) -> None:
         self.page, self.sheets, self.turn, self.way = page, sheets, turn, way
         self.done: set[int] = set()
+        self.sheet = sheets[0]
 
     def draw(self, move: PaletteMove) -> str:
-        """Draw a move, and hear what the page says of it."""
+        """Draw a move on the sheet in sight, and hear what the page says of it."""
+        seen = (self.page.locator(f"#sheet-{k}").is_visible() for k in range(len(self.sheets)))
+        self.sheet = self.sheets[[*seen].index(True)]
         said = self.by_pointer(move)
         self.done.add(move.step)
         return said
@@ -134,14 +138,9 @@ class TurningHand:
 
     def field(self, plane: Plane) -> Any:
         """The field of the sheet in sight that shows a drawing."""
-        sheet = next(
-            one
-            for k, one in enumerate(self.sheets)
-            if self.page.locator(f"#sheet-{k}").is_visible()
-        )
         if plane is PLANES[0]:
-            return sheet.layout.mechanism
-        return sheet.layout.plan if plane is sheet.drawing.plane else None
+            return self.sheet.layout.mechanism
+        return self.sheet.layout.plan if plane is self.sheet.drawing.plane else None
 
     def placed(self, plane: Plane, value: Any) -> list[float]:
         """The place of a value in its field, in mm."""

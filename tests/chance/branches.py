@@ -64,10 +64,8 @@ def along_of(standing: Standing, scene: Scene, block: str) -> complex:
 
 
 def refuse_dead(standing: Standing, group: Higher, scene: Scene) -> None:
-    """Raise DeadChainError where a dyad of a group's chain stands on its dead point."""
-    for each in group.chain:
-        if isinstance(each, Higher):
-            refuse_dead(standing, each, scene)
+    """Raise DeadChainError where a dyad of a group's chains stands on its dead point."""
+    for each in (each for one in group.nested for each in one.chain):
         dyad = each.dyad if isinstance(each, Stretched) else each
         if isinstance(dyad, Dyad) and abs(sine_of(standing, dyad, scene)) < DEAD:
             raise DeadChainError(f"links {', '.join(dyad.links)}")

@@ -21,7 +21,10 @@ STEPS = 90
 ROWS = 12
 """Rows at which positions are differentiated."""
 BESIDE = 1e-4
-"""Half the step of the differences, in parts of a row's distance from the next."""
+"""Half the step of the differences, in parts of a row's distance from the next.
+
+Differences over twice the step show by how much they err beside a dead point.
+"""
 CLOSE = 1e-4
 """What a velocity may differ from a difference of positions, in parts of the largest."""
 FAST = 100.0
@@ -56,11 +59,11 @@ def led_elsewhere(found: Cycle) -> list[str]:
     free = set(found.scene.cam_centres)
     points = [of for what, of in targets if what == "position" and "@" not in of]
     points = [of for of in points if ("velocity", of) in targets and of not in free]
-    every = np.concatenate([at - step, at, at + step])
+    every = np.concatenate([at + k * step for k in (-2, -1, 0, 1, 2)])
     wanted = [(what, of) for of in points for what in ("position", "velocity")]
     columns = columns_at(found.sweep, found.path, every, wanted, geometric=True).columns
-    place = {of: columns["position", of].reshape(3, -1) for of in points}
-    rate = {of: columns["velocity", of].reshape(3, -1)[1] for of in points}
+    place = {of: columns["position", of].reshape(5, -1) for of in points}
+    rate = {of: columns["velocity", of].reshape(5, -1)[2] for of in points}
     if not points:
         return []
     size = np.max([np.abs(v) for v in rate.values()], axis=0)
@@ -68,7 +71,8 @@ def led_elsewhere(found: Cycle) -> list[str]:
     wrong = []
     for of in points:
         with np.errstate(all="ignore"):
-            seen = (place[of][2] - place[of][0]) / (2 * step * found.sweep.per_unit)
+            way = (8 * (place[of][3] - place[of][1]) - place[of][4] + place[of][0]) / 12
+            seen = way / (step * found.sweep.per_unit)
             off = np.abs(seen - rate[of]) / size
         over = np.flatnonzero(calm & (off > CLOSE))
         wrong += [f"{of} at {at[k]:.6g} goes {off[k]:.1e} otherwise" for k in over[:1]]

@@ -25,9 +25,9 @@ from graphkin.scene.house import House
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from graphkin.text.errors import SceneError
+from graphkin.text.school_signs import SCHOOLS
 from graphkin.web.step_page import step_page
 from tests.running import Run
-from tests.scene_files import scene_text
 
 INCH = 0.0254
 SCENES = (
@@ -135,7 +135,8 @@ def test_no_metre_is_left_on_paper(view: str, language: str) -> None:
 def test_relations_follow_from_their_figures_in_inches() -> None:
     found = texts(Mechanism(read_text(INCHES, "x")), "key")
     assert "vA = ω1·OA = 12.5664·2 = 25.13 in/s (⊥ OA)" in found
-    assert "kL = 0.0393701 in/mm (scale 1:1)" in found
+    assert "kL = 1 in/in = 0.0393701 in/mm (scale 1:1)" in found
+    assert any("kL = 1 in/in" in each and each.startswith("Mechanism, scale") for each in found)
     assert "OA/kL = 2/0.0393701 = 50.8 mm (drawn)" in found
 
 
@@ -241,21 +242,148 @@ def test_a_class_in_inches_is_marked_in_inches(run: Run, tmp_path) -> None:
     assert "18.70" in page and "in/s" in page and "m/s" not in re.sub("[a-z]m/s", "", page)
 
 
-@pytest.mark.parametrize(("unit", "is_read"), [("in", False), ("cm", False), ("m", True)])
-def test_results_of_a_scene_with_masses_are_in_metres(unit, is_read):
-    """Newtons are of metres: another unit that the scene states itself is refused, not ignored."""
-    scene = scene_text("forces/four-bar")
-    stated = scene.replace("units = { ", f'units = {{ results = "{unit}", ')
-    if is_read:
-        assert read_text(stated, "x").unit_of_results == "m"
-        return
-    with pytest.raises(SceneError, match=f"units.results: {unit}: .* in metres"):
-        read_text(stated, "x")
-
-
 @pytest.mark.parametrize(("size", "written"), [(1, "1:1"), (2, "1:2"), (4, "1:4"), (6, "1:8")])
 def test_scales_of_inches_are_full_half_quarter_and_eighth(size: int, written: str) -> None:
     longer = INCHES.replace("O-A = 2", f"O-A = {2 * size}").replace("A-B = 6", f"A-B = {6 * size}")
     (first, *_) = hand_out(Mechanism(read_text(longer, "x")), "key", "en")
     marks = [m for m in first.pages[0].marks if isinstance(m, Text) and m.name == "scale"]
     assert written in [mark.markup for mark in marks]
+
+
+# --- forces ---------------------------------------------------------------------------------------
+
+POUND = 0.45359237 * 9.80665
+"""A pound-force in newtons, exact by definition."""
+PRESS = """
+graphkin = 1
+title = "Press"
+units = { length = "in", angle = "deg", speed = "rev/min", force = "lbf" }
+gravity = true
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 3
+[links.2]
+A-B = 9
+A-G = 3.5
+G = "on A-B"
+mass = 4.5
+centre = "G"
+inertia = 38
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = [0, 0], angle = 0 }
+mass = 6
+[[drivers]]
+turn = 1
+angle = 50
+speed = 600
+[branches]
+3 = "forward"
+[[loads]]
+at = "B"
+link = 3
+force = [-250, 0]
+[[springs]]
+between = "O-B"
+stiffness = 5
+free = 4
+[ask]
+reactions = ["A", 3]
+balance = true
+"""
+IN_NEWTONS = (
+    (', force = "lbf"', ""),
+    ("mass = 4.5", 'mass = "4.5*0.45359237"'),
+    ("mass = 6", 'mass = "6*0.45359237"'),
+    ("inertia = 38", 'inertia = "38*0.45359237*0.0254**2"'),
+    ("-250", '"-250*0.45359237*9.80665"'),
+    ("stiffness = 5", 'stiffness = "5*0.45359237*9.80665/0.0254"'),
+    ("gravity = true", "gravity = [0, -9.80665]"),
+)
+"""The same press in kilograms, newtons and metres, by the definitions of the units."""
+NEWTONS = re.compile(r"(?<=[\d)] )(N|N·m|kg|kg·m²)(?![\w·])|\bN/mm")
+
+
+def forces_of(mechanism: Mechanism) -> list[tuple[complex, float]]:
+    found, verdict = mechanism.forces()
+    assert verdict.agrees
+    some = [(each.force, 0.0) for each in found.reactions]
+    return some + [(each.force or 0.0, each.moment or 0.0) for each in found.balance]
+
+
+@pytest.mark.parametrize("name", ["pump-forces", "shaper-forces", "gears-forces", "belts-forces"])
+@pytest.mark.parametrize(("results", "metre", "newton"), [("in", INCH, POUND), ("mm", 1e-3, 1.0)])
+def test_forces_are_the_same_in_other_units(name: str, results: str, metre, newton) -> None:
+    given = of(name, results)
+    assert given.measured.scene.base == results
+    for own, other in zip(forces_of(given), forces_of(given.measured), strict=True):
+        assert other[0] * newton == pytest.approx(own[0], rel=1e-9, abs=1e-9)
+        assert other[1] * newton * metre == pytest.approx(own[1], rel=1e-9, abs=1e-9)
+
+
+def test_a_scene_in_pounds_is_the_same_in_newtons() -> None:
+    text = PRESS
+    for own, si in IN_NEWTONS:
+        assert own in text
+        text = text.replace(own, si)
+    both = [forces_of(Mechanism(read_text(each, "x"))) for each in (PRESS, text)]
+    for own, other in zip(*both, strict=True):
+        assert own == pytest.approx(other, rel=1e-12)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_no_newton_is_left_on_a_sheet_in_pounds(view: str, language: str) -> None:
+    found = texts(Mechanism(read_text(PRESS, "x")), view, language)
+    assert not [each for each in found if NEWTONS.search(each) or METRES.search(each)]
+    assert any(words(language).spelled("lbf·in") in each for each in found)
+
+
+def test_a_weight_in_pounds_is_its_mass_in_pounds() -> None:
+    found = texts(Mechanism(read_text(PRESS, "x")), "key")
+    assert "4.5 lb = 0.011655 lbf·s²/in" in found
+    assert "G2 = m2·g = 0.011655·386.09 = 4.500 lbf" in found
+
+
+@pytest.mark.parametrize(
+    ("written", "pounds"),
+    [
+        *(("250", 250), ("250 lb", 250), ("1.112 kN", 1112 / POUND), ("250,0 lbf", 250)),
+        ("250 фунт-сила", 250),
+    ],
+)
+def test_forces_are_answered_in_pounds_or_newtons(written: str, pounds: float) -> None:
+    item = asked_fields(Mechanism(read_text(PRESS, "x")))["R_12"]
+    assert item.unit == "lbf"
+    assert read_answer(written, item).value == pytest.approx(pounds * POUND, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("written", "inch_pounds"),
+    [
+        *(("60", 60), ("60 lbf·in", 60), ("60 in-lb", 60), ("5 ft·lbf", 60), ("5 lb-ft", 60)),
+        ("6.779 N·m", 6.779 / POUND / INCH),
+    ],
+)
+def test_moments_are_answered_in_inch_or_foot_pounds(written: str, inch_pounds: float) -> None:
+    item = asked_fields(Mechanism(read_text(PRESS, "x")))["M_b1"]
+    assert item.unit == "lbf·in"
+    assert read_answer(written, item).value == pytest.approx(inch_pounds * POUND * INCH, rel=1e-12)
+
+
+def test_angular_accelerations_of_forces_have_the_sign_of_the_school() -> None:
+    scene = read_text(PRESS, "x", house=House(signs=SCHOOLS["english"].signs))
+    assert not [each for each in texts(Mechanism(scene), "key") if "ε" in each]
+
+
+def test_forces_in_pounds_are_reported_in_pounds(run: Run, tmp_path) -> None:
+    path = tmp_path / "press.toml"
+    path.write_text(PRESS, encoding="utf-8")
+    assert "moment, lbf·in" in run("solve", path).output
+    assert "moment, N·m" in run("solve", path, "--units", "SI").output
+    own = json.loads(run("solve", path, "--json", "--units", "scene").output)
+    si = json.loads(run("solve", path, "--json").output)
+    assert own["units"]["moment"] == "lbf·in"
+    moment = own["balance"]["1"]["moment"] * POUND * INCH
+    assert si["balance"]["1"]["moment"] == pytest.approx(moment, rel=1e-9)

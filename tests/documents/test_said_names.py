@@ -13,7 +13,7 @@ from graphkin.drawing.marks import Text
 from graphkin.drawing.symbol_markup import symbol
 from graphkin.mechanism import Mechanism
 from graphkin.scene.read_scene import read_text
-from graphkin.text import AND, LANGUAGES, Markup, names_in, words
+from graphkin.text import LANGUAGES, Markup, names_in, words
 from tests.documents.sheet_tools import drawings
 from tests.scene_files import scene_text
 
@@ -36,10 +36,11 @@ def test_every_vector_that_a_sentence_says_is_among_its_names(name, language):
 
 def test_what_is_joined_says_what_its_parts_say():
     a, b = symbol("v_A"), symbol("v_B")
-    assert names_in(AND.join((a, "and", b))) == {"v_A", "v_B"}
+    assert names_in(words("en").clauses((a, "and", b))) == {"v_A", "v_B"}
     assert names_in(a + " ⊥ ") == {"v_A"}
     assert names_in(str(a)) == names_in(f"{a}") == frozenset()
-    assert AND.join((a, b)) == f"{a}; {b}" and isinstance(AND.join(()), Markup)
+    said = words("en").clauses
+    assert said((a, b)) == f"{a}; {b}" and isinstance(said(()), Markup)
 
 
 def test_a_sentence_says_those_of_its_fields_that_it_has():

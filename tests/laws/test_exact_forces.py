@@ -83,7 +83,7 @@ def with_loads(name: str) -> Mechanism:
     return mechanism if given is not None else loaded(mechanism, random.Random(name))
 
 
-@pytest.mark.parametrize("name", shared(SCENES, 5))
+@pytest.mark.parametrize("name", shared(SCENES, 10))
 def test_every_scene_of_the_gallery_has_them_right_with_loads_at_random(name):
     """Redundant constraints, belts and second rollers are refused; the rest agrees."""
     mechanism = with_loads(name)

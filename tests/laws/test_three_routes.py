@@ -51,6 +51,11 @@ SEEN = {
     31836: "two closures that nearly merge between the places of a search",
     30334: "a bar kept at a wheel that a rack carries",
     30620: "a rack on which a bar hangs, on a block that turns far round",
+    8801437: "a closure a thousandth of a radian beside a pole of both misfits",
+    8801666: "a wheel of a group whose closure has a number, and which is a block of a dyad",
+    8800237: "a guide by its angle through a point 24 km from its link's origin",
+    8801388: "the same beside a bar of 12 m",
+    8800025: "a driver that rolls, beside which a trial must not be too small",
 }
 """Seeds of a longer run at which a route once erred, and what is special there."""
 LONG = {
@@ -74,6 +79,7 @@ LONG = {
     30620: "a rack on which a bar hangs, on a block that turns far round",
     30334: "a bar kept at a wheel that a rack carries",
     1269: "rollers between two bars, either of which might lie on the other",
+    8801175: "a closure between two flat dyads a ten-thousandth of a radian apart",
     4363: "a plank on rollers that carries a wheel and its rack",
 }
 """The same, where a route takes half a second or more, as where the loops count closures among

@@ -6,12 +6,23 @@
 import pytest
 
 from tests.chance.moving import faults, moved
+from tests.chosen import EVERY
 
-SEEN = {922004: "a link past half a turn, whose wheel's block the program counts instead"}
+SEEN = {
+    922004: "a link past half a turn, whose wheel's block the program counts instead",
+    8800615: "a row so near a dead point that differences of positions err",
+}
 """Seeds of a longer run whose cycle was once wrong, and what is special there."""
+LONG = {
+    8801115: "a closure beside a flat dyad, about which steps swing",
+    8801345: "rows of a group of class IV that lost digits",
+    8800025: "a driver that rolls, beside which a trial must not be too small",
+}
+"""The same, where a cycle takes seconds: ``EVERY=1`` alone."""
+SEEDS = (*range(700102, 700107), 700109, 700112, *SEEN, *(LONG if EVERY else ()))
 
 
-@pytest.mark.parametrize("seed", [*range(700102, 700107), 700109, 700112, *SEEN])
+@pytest.mark.parametrize("seed", SEEDS)
 def test_a_whole_cycle_is_a_motion(seed):
     found = moved(seed)
     assert found is not None

@@ -20,9 +20,8 @@ from graphkin.construction.links.link_shapes import hull
 from graphkin.drawing.marks import Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.curves.charts import cut, numeral, ticks_of
-from graphkin.motion.curves.curve_files import figures, picture_files
 from graphkin.motion.curves.over_driver import pictures, sampled, span_of
-from graphkin.motion.curves.plane_paths import box_of, dotted, near_box
+from graphkin.motion.curves.plane_paths import box_of, dotted, figures, near_box, picture_files
 from graphkin.motion.cycle import cycle
 from graphkin.scene.read_scene import read_text
 from tests.chosen import EVERY

@@ -49,7 +49,7 @@ def test_corners_of_polygons_are_read_and_their_fields_filled_in(tmp_path: Path)
     (record,) = records_in(tmp_path / "read")
     assert (record.refused, record.kind) == (None, "force")
     true = {each.step: each for each in drawing.points}
-    assert {"P_A", "R_03", "R_21"} <= {each.name for each in record.points}
+    assert {"A", "B", "D", "P_A", "R_03", "R_21"} <= {each.name for each in record.points}
     for point in record.points:
         assert point.verdict == "right" and not point.ask, point
         assert abs(complex(*point.at) - complex(*true[point.step].at)) < 0.6

@@ -6,7 +6,10 @@ import cmath
 
 import pytest
 
+from graphkin.reading.marked_drawing import DASH, dashes, expected_lines
 from graphkin.reading.plan_causes import PlanCause, Shaft, Similarity, similarity_of
+from graphkin.reading.point_reading import PointReading, pair
+from graphkin.reading.read_sheet import SheetRecord
 from graphkin.text import words
 from tests.reading.test_reading import ink_of
 from tests.reading.test_vector_ends import Strokes, vector
@@ -73,3 +76,30 @@ def test_the_cause_is_said_in_the_readers_language() -> None:
     assert list(PlanCause(1.0, 140.0, True).sentences(words("en"))) == [
         "The whole plan is mirrored"
     ]
+
+
+def line_of(tail: complex, tip: complex) -> tuple[float, float, float, float]:
+    return (*pair(tail), *pair(tip))
+
+
+def test_the_plan_that_was_expected_is_shown_where_all_of_it_is_moved() -> None:
+    """Of the mechanism, which is right, no line is shown again; of a right plan nothing."""
+    drawn, pin = CASES["halved"], 80 + 120j
+    points = [
+        *(PointReading("b", i, pair(drawn(tip)), "wrong", True, pair(tip), pair(tip))
+          for i, tip in enumerate(TIPS)),
+        PointReading("B", 9, pair(pin), "right", False, pair(pin), pair(pin)),
+    ]  # fmt: skip
+    plan = tuple(line_of(*shaft) for shaft in SHAFTS)
+    lines = (*plan, line_of(pin - 40, pin))
+    cause = PlanCause(0.5, 0.0)
+    record = SheetRecord("one", "one.jpg", "", key_lines=lines, cause=cause)
+    assert expected_lines(record, points) == plan
+    assert not expected_lines(SheetRecord("one", "one.jpg", "", key_lines=lines), points)
+
+
+def test_dashes_cover_half_of_a_line_and_end_on_it() -> None:
+    line = (10.0, 20.0, 10.0, 20.0 + 9 * DASH)
+    pieces = list(dashes(line))
+    assert pieces[-1][3] == line[3]
+    assert sum(each[3] - each[1] for each in pieces) == pytest.approx(5 * DASH)

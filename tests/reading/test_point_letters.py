@@ -62,15 +62,27 @@ OTHER = POINT + 30 - 40j
 PLACES = {0: POINT, 1: OTHER}
 
 
-def compared(ink: DrawnInk) -> list[PointReading]:
-    """The readings of b and d, both right by their lines, after their letters were compared."""
+TRIED = POINT - 40 + 30j
+"""Where d of a trial plan is expected."""
+
+
+def compared(ink: DrawnInk, tried: complex | None = None) -> list[PointReading]:
+    """The readings of b and d, both right by their lines, after their letters were compared.
+
+    With ``tried``, there is a d of a trial plan as well.
+    """
     reader = object.__new__(PointReader)
     steps = [SimpleNamespace(plane=Plane.VELOCITIES, aside=None, name="b")] * 2
-    trace = SimpleNamespace(values=PLACES)
+    values = dict(PLACES)
+    if tried is not None:
+        values[2] = tried
+        steps.append(SimpleNamespace(plane=Plane.VELOCITIES, aside=1, name="d¹"))
+    trace = SimpleNamespace(values=values)
     exact = SimpleNamespace(program=SimpleNamespace(steps=steps), trace=trace)
     drawing = SimpleNamespace(plane=Plane.VELOCITIES)
-    reader.sheet = cast("Any", SimpleNamespace(exact=exact, drawing=drawing))
-    reader.ink, reader.own = ink, dict(PLACES)
+    sheet = SimpleNamespace(exact=exact, drawing=drawing, place=lambda _, value: value)
+    reader.sheet = cast("Any", sheet)
+    reader.ink, reader.own, reader.next = ink, dict(PLACES), values
     reader.readings = {
         number: PointReading(name, number, pair(at), "right", False, pair(at), pair(at), 0.0)
         for (number, at), name in zip(PLACES.items(), ("b", "d_1"), strict=True)
@@ -99,6 +111,27 @@ def test_one_letter_of_another_point_is_enough_to_ask(seed: int) -> None:
     assert one.ask
     assert other.ask
     assert not any(each.ask for each in compared(ink_of(*LINES, *strokes("b", seed))))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_letter_exchanged_with_that_of_a_trial_plan_is_asked(seed: int) -> None:
+    """The point of the trial plan is not read itself, and nothing else says that b is wrong."""
+    right = ink_of(*LINES, *strokes("b", seed), *strokes("d", seed, TRIED))
+    assert not any(each.ask for each in compared(right, TRIED))
+    own = strokes("d", seed, OTHER)
+    exchanged = ink_of(*LINES, *own, *strokes("d", seed), *strokes("b", seed, TRIED))
+    one, other = compared(exchanged, TRIED)
+    assert not other.ask
+    assert one.doubts == ("letter",)
+    if one.verdict == "wrong":
+        assert one.at == pair(TRIED)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_letter_of_a_trial_plan_near_by_is_not_the_points(seed: int) -> None:
+    """The point's own letter is not read; that of a trial plan is written close to it."""
+    near = POINT + 1 + 1j
+    assert not any(each.ask for each in compared(ink_of(*LINES, *strokes("d", seed, near)), near))
 
 
 @pytest.mark.parametrize(("long", "gone"), [(6.0, False), (12.0, True)])

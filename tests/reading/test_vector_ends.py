@@ -205,6 +205,22 @@ def test_a_head_just_beyond_the_point_is_not_its_own() -> None:
     assert not read([*vector(TAIL, TIP + 3.1 * WAY), *LINE, *RING], along=True).is_there
 
 
+@pytest.mark.parametrize("turn", [35, 60])
+@pytest.mark.parametrize("past", [2.4, 3.5, 5.5, -2.4])
+def test_a_head_beside_a_point_with_other_heads_is_asked_about(past: float, turn: int) -> None:
+    """Two other vectors end at the point, and their heads look like the end of this one."""
+    tails = [TIP - 45 * WAY * np.exp(1j * np.radians(each)) for each in (-turn, turn)]
+    others = [stroke for tail in tails for stroke in vector(tail, TIP)]
+    ways = [TIP - tail for tail in tails]
+
+    def end(past: float) -> VectorEnd:
+        ink = ink_of(*vector(TAIL, TIP + past * WAY), *LINE, *others, ACROSS)
+        return vector_end(ink, TAIL, TIP, [], along_line=True, beside=ways)
+
+    assert end(0.0).is_there
+    assert end(past).doubled
+
+
 def test_half_a_head_at_the_tail_of_a_vector_without_one_is_asked_about() -> None:
     """A printed pole hides the other half; a ring alone says that the point is there."""
     half = [(TAIL, TAIL + 1.6 * WAY * np.exp(1j * np.radians(each))) for each in (-17, 17)]

@@ -18,7 +18,7 @@ from msgspec.structs import replace
 from graphkin.cli.main import app
 from graphkin.construction.core.solution import Solution
 from graphkin.mechanism import Mechanism
-from graphkin.motion.curves import curve_files
+from graphkin.motion.curves import plane_paths
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.read_scene import read_text
 from tests.stress.closed import (
@@ -322,8 +322,8 @@ def commanded(
         "sheet": ("sheet", str(path), *written),
         "cycle": ("cycle", str(path), "--steps", "36", *written),
     }
-    drawn = curve_files.picture_files if pictures else lambda *_: {}
-    with patch.object(curve_files, "picture_files", drawn):
+    drawn = plane_paths.picture_files if pictures else lambda *_: {}
+    with patch.object(plane_paths, "picture_files", drawn):
         said = {name: CliRunner().invoke(app, arguments[name]) for name in names}
     for name, result in said.items():
         assert result.exit_code in (0, 1, 2), name

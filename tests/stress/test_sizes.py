@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from graphkin.motion.cycle import cycle
 from graphkin.text.errors import SceneError
+from tests.chosen import by_turns
 from tests.stress.cases import (
     DRAWN,
     LONG,
@@ -54,8 +55,9 @@ def test_no_size_and_no_speed_is_too_small_or_too_large(case, size):
         assert here.mechanism().witness(solution).agrees
 
 
-@pytest.mark.parametrize("case", KINDS, ids=lambda case: type(case).__name__)
-@pytest.mark.parametrize("size", [-7, 7])
+@pytest.mark.parametrize(
+    ("case", "size"), by_turns(KINDS, [-7, 7]), ids=lambda each: type(each).__name__
+)
 def test_tiny_and_huge_mechanisms_go_through_all_the_commands(case, size, tmp_path):
     names = LONG if isinstance(case, FourBar) else DRAWN
     said = commanded(sized(case, ten(size), Fraction(1)), tmp_path, names)

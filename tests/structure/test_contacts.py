@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from graphkin.structure.pairs import contacts, turns
+from graphkin.structure.pairs import contacts
+from graphkin.structure.turning import turns
 from graphkin.text.errors import StructureError
 from tests.mechanisms import scene_of
 from tests.scene_files import scene_text

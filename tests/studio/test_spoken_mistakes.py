@@ -6,6 +6,7 @@ import ast
 import pickle
 import re
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from string import Formatter
 
@@ -24,12 +25,13 @@ CODE = re.compile(r'"[^"]*"|\{[^{}]*\}|\[[^]]*\]')
 FOREIGN = ("it", "ro")
 
 
+@cache
 def templates() -> set[str]:
     """The template of every message that the package makes."""
     found: set[str] = set()
     for path in sorted(ROOT.rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and ast.unparse(node.func) == "message":
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "message":
                 found.update(literals(node.args[0]))
     return {each for each in found if words_in(each)}
 

@@ -51,10 +51,8 @@ WHICH = tuple(
             "excavator-relative",
             "gears-planet",
             "gears-rack",
-            "gears-ring",
             "oscillating-slide",
-            "rapid-return",
-            "stephenson-3-crank",
+            *(("rapid-return", "stephenson-3-crank", "gears-ring") if EVERY else ()),
             "trammel",
             *ENDLESS[1:],
         )

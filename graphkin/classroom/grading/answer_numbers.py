@@ -10,7 +10,7 @@ from math import pi
 from graphkin.classroom.grading.graded import BLANK, Answer
 from graphkin.classroom.lab.lab_model import Item
 from graphkin.construction.core.quantities import CLOCKWISE
-from graphkin.scene.quantity import LENGTHS
+from graphkin.scene.quantity import FORCES, LENGTHS
 from graphkin.text import UNIT_LETTERS
 
 
@@ -185,9 +185,6 @@ RUSSIAN = {written.casefold(): unit for unit, written in UNIT_LETTERS["ru"].item
 """The parts of units in Russian, in small letters."""
 UNITS: dict[str, dict[str, float]] = {
     "mm": {"mm": 1, "cm": 10, "m": 1000, "in": 25.4},
-    "m": {"m": 1, "cm": 0.01, "mm": 0.001, "in": 0.0254},
-    "m/s": {"m/s": 1, "cm/s": 0.01, "mm/s": 0.001, "in/s": 0.0254, "ms-1": 1},
-    "m/s²": {"m/s2": 1, "cm/s2": 0.01, "mm/s2": 0.001, "in/s2": 0.0254, "ms-2": 1},
     "rad/s": {
         "rad/s": 1,
         "1/s": 1,
@@ -197,19 +194,33 @@ UNITS: dict[str, dict[str, float]] = {
         "°/s": pi / 180,
         **dict.fromkeys(TURNS_A_MINUTE, pi / 30),
     },
-    "N": {"N": 1, "kN": 1000},
-    "N·m": {"N·m": 1, "Nm": 1, "kN·m": 1000, "kNm": 1000, "N·mm": 0.001, "Nmm": 0.001},
     "°": {"°": 1, "deg": 1, "rad": 180 / pi},
-    "in": {each: float(size) for each, size in LENGTHS.items()},
     "rad/s²": {"rad/s2": 1, "1/s2": 1, "s-2": 1, "rads-2": 1, "deg/s2": pi / 180},
 }
 """For each field's unit, the factors that convert the units students may write."""
+METRIC = {each: float(size) for each, size in LENGTHS.items()}
+UNITS |= {length: METRIC for length in LENGTHS if length != "mm"}
 UNITS |= {
-    f"{length}{per}": {f"{each}{written}": float(size) for each, size in LENGTHS.items()}
+    f"{length}{per}": {f"{each}{written}": size for each, size in METRIC.items()} | {power: 1.0}
     for length in LENGTHS
-    for per, written in (("/s", "/s"), ("/s²", "/s2"))
-    if length != "m"
+    for per, written, power in (("/s", "/s", "ms-1"), ("/s²", "/s2", "ms-2"))
 }
+WRITTEN_FORCES = {each: float(size) for each, size in FORCES.items()} | {
+    "kN": 1000.0,
+    **dict.fromkeys(("lb", "lbs"), float(FORCES["lbf"])),
+}
+"""The units of forces that students may write, in newtons."""
+MOMENTS = {
+    f"{one}{dash}{other}": size * arm
+    for force, size in WRITTEN_FORCES.items()
+    for length, arm in METRIC.items()
+    for one, other in ((force, length), (length, force))
+    for dash in ("", "-")
+    if one == force or force not in ("N", "kN")
+}
+"""The units of moments that students may write, in N·m: ft-lb is lbf·ft, but mN is none."""
+UNITS |= dict.fromkeys(FORCES, WRITTEN_FORCES)
+UNITS |= {f"{force}·{length}": MOMENTS for force in FORCES for length in LENGTHS}
 
 
 def read_answer(text: str, item: Item) -> Answer:
@@ -323,7 +334,9 @@ def plain_unit(text: str) -> str:
     The stop, comma or semicolon after it is left out.
     """
     latin = re.sub(
-        r"[А-Яа-я]+\.?", lambda part: RUSSIAN.get(part[0].rstrip(".").casefold(), part[0]), text
+        r"[А-Яа-я]+(?:-[А-Яа-я]+)?\.?",
+        lambda part: RUSSIAN.get(part[0].rstrip(".").casefold(), part[0]),
+        text,
     )
     plain = re.sub(r"[\s()\[\]^*·]", "", latin).translate(RAISED)
     return re.sub(r"(?<=\w)[.,;]$|^;$", "", plain.replace("sec", "s"))

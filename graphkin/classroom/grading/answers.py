@@ -119,12 +119,10 @@ def submissions(path: Path) -> Submissions:
     tables = tuple(each for each in found if is_table(PurePosixPath(each.name)))
     if not tables:
         folder = path.is_dir()
-        raise RosterError(
-            Problem(
-                str(path),
-                message("a folder without any table" if folder else "a ZIP file without any table"),
-                message("files {kinds}", kinds=", ".join(KINDS)),
-            )
+        raise RosterError.at(
+            str(path),
+            message("a folder without any table" if folder else "a ZIP file without any table"),
+            message("files {kinds}", kinds=", ".join(KINDS)),
         )
     senders_with_table = {each.sender.name for each in tables if each.sender is not None}
     every = [each.sender for each in found if each.sender is not None]
@@ -162,7 +160,7 @@ def own_bytes(path: Path, name: str) -> bytes:
     """The bytes of a file. Raises RosterError for a symbolic link."""
     if path.is_symlink():
         found, hint = message("is a link to another place"), message("put the file itself there")
-        raise RosterError(Problem(name, found, message("a file of its own"), hint))
+        raise RosterError.at(name, found, message("a file of its own"), hint)
     return bytes_of(path)
 
 
@@ -179,23 +177,21 @@ def in_zip(path: Path) -> list[HandedIn]:
     try:
         data = file_bytes(path, MOST_BYTES + 1)
         if len(data) > MOST_BYTES:
-            raise RosterError(Problem(path.name, message("is too large"), expected))
+            raise RosterError.at(path.name, message("is too large"), expected)
         packed = zipfile.ZipFile(io.BytesIO(data))  # in memory: nothing is left open
         parts = [part for part in packed.infolist() if not part.is_dir()]
     except OSError as error:
         reason = error.strerror or message("cannot be opened")
-        raise RosterError(
-            Problem(str(path), message("cannot be read: {reason}", reason=reason))
+        raise RosterError.at(
+            str(path), message("cannot be read: {reason}", reason=reason)
         ) from None
     except (zipfile.BadZipFile, ValueError, RuntimeError, NotImplementedError, EOFError) as error:
         hint = message("download it again, or unpack it and name the folder")
-        raise RosterError(
-            Problem(path.name, message("cannot be read as a ZIP file"), NO_WORDS, hint)
+        raise RosterError.at(
+            path.name, message("cannot be read as a ZIP file"), NO_WORDS, hint
         ) from error
     if len(parts) > MOST_FILES:
-        raise RosterError(
-            Problem(path.name, message("holds {count} files", count=len(parts)), expected)
-        )
+        raise RosterError.at(path.name, message("holds {count} files", count=len(parts)), expected)
     found = [
         HandedIn(
             part.filename, part.file_size, partial(unpacked, packed, part), sender(part.filename)
@@ -208,19 +204,17 @@ def in_zip(path: Path) -> list[HandedIn]:
 def unpacked(packed: zipfile.ZipFile, part: zipfile.ZipInfo) -> bytes:
     """The bytes of a file in a ZIP file. Raises RosterError where it cannot be unpacked."""
     if part.file_size > LARGEST:
-        raise RosterError(
-            Problem(
-                part.filename,
-                message("is too large"),
-                message("at most {most} MiB", most=LARGEST >> 20),
-            )
+        raise RosterError.at(
+            part.filename,
+            message("is too large"),
+            message("at most {most} MiB", most=LARGEST >> 20),
         )
     try:
         return packed.read(part)
     except Exception as error:
         hint = message("is it encrypted or damaged? unpack it, or ask for it again")
         found = message("cannot be unpacked from the ZIP file")
-        raise RosterError(Problem(part.filename, found, NO_WORDS, hint)) from error
+        raise RosterError.at(part.filename, found, NO_WORDS, hint) from error
 
 
 def sender(name: str) -> Sender | None:
@@ -430,9 +424,7 @@ def refuse_other_lab(name: str, reading: AnswerReading) -> None:
         names=named,
     )
     expected = message("fields such as {fields}", fields=", ".join(fields[:4]))
-    raise RosterError(
-        Problem(name, found, expected, message("are these the answers to another lab?"))
-    )
+    raise RosterError.at(name, found, expected, message("are these the answers to another lab?"))
 
 
 def is_form(sheet: Spreadsheet) -> bool:
@@ -486,15 +478,15 @@ class AnswerReading(Struct, dict=True):
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:12])
             wanted = self.match or "id"
             found = message("no column {wanted}; the head is {head}", wanted=wanted, head=head)
-            raise RosterError(
-                Problem(sheet.name, found, message('a column named "{wanted}"', wanted=wanted))
+            raise RosterError.at(
+                sheet.name, found, message('a column named "{wanted}"', wanted=wanted)
             )
         if not own:
             expected = message("columns such as {known}", known=", ".join(list(self.known)[:4]))
             head = ", ".join(f'"{visible(cell)}"' for cell in sheet.head[:SHOWN])
             found = message("no column is a field of the form; the head is {head}", head=head)
             hint = message("are these the answers to another lab?")
-            raise RosterError(Problem(sheet.name, found, expected, hint))
+            raise RosterError.at(sheet.name, found, expected, hint)
         column = where[meant[0]] if meant else None
         drawn = next(
             (i for i, cell in enumerate(sheet.head) if folded(cell) == folded(DRAWING)), None

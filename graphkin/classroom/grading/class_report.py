@@ -282,7 +282,7 @@ def summary(graded: Sequence[Graded], words: Words) -> str:
     key = "class.summary_sheets" if counted_in(graded) == "sheets" else "class.summary"
     text = words(key, present=present, all=len(graded), **amounts)
     waiting = sum(bool(each.pending) for each in graded)
-    return f"{text}; {words('class.pending', count=waiting)}" if waiting else text
+    return words.clauses((text, words("class.pending", count=waiting))) if waiting else text
 
 
 def names_of(result: Result) -> dict[str, str]:
@@ -300,7 +300,7 @@ def wrong_variant_lines(result: Result, words: Words) -> Iterator[str]:
         earned, points, spared = (points_words(amount, words) for amount in amounts)
         key = "class.held" if each.held else "class.stays"
         key = "class.ruled" if any(not own.is_open for own in each.decisions) else key
-        text += f"; {words(key, earned=earned, points=points)}"
+        text = words.clauses((text, words(key, earned=earned, points=points)))
         yield f"{text}, {words('class.spared', spared=spared)}" if each.spared else text
 
 
@@ -457,8 +457,8 @@ def open_cells(result: Result, unread: Iterable[Unread]) -> list[Unread]:
 def stranger_lines(given: Answers, earning: Container[str], words: Words) -> Iterator[str]:
     """A sentence for each column that is no field, and for missing fields that earn points."""
     for each in given.strangers:
-        near = f"; {words('class.meant', field=each.near)}" if each.near else ""
-        yield words("class.stranger", file=each.file, name=each.name) + near
+        near = [words("class.meant", field=each.near)] if each.near else []
+        yield words.clauses([words("class.stranger", file=each.file, name=each.name), *near])
     missing = [name for name in given.missing if name in earning]
     if missing:
         yield words("class.unanswered", fields=", ".join(missing))

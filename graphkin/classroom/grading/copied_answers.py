@@ -21,13 +21,16 @@ from msgspec.structs import replace
 from graphkin.accuracy.pencil import SCALES
 from graphkin.classroom.grading.explanations import CauseWay
 from graphkin.classroom.grading.graded import Graded, Status, Suspicion
-from graphkin.classroom.grading.keys import COMPUTED, Keys, distinct, read_of
-from graphkin.classroom.grading.likelihood import (
+from graphkin.classroom.grading.keys import (
+    COMPUTED,
     FAR,
     PENCILS,
     Key,
+    Keys,
+    distinct,
     fit,
     likelihood_if_drawn,
+    read_of,
     reported_odds,
 )
 from graphkin.classroom.grading.standard import Expectation

@@ -21,8 +21,7 @@ from graphkin.accuracy.pencil import STRAIGHT
 from graphkin.classroom.grading.answer_numbers import rounding
 from graphkin.classroom.grading.causes import Cause, Change, Variants
 from graphkin.classroom.grading.graded import Answer
-from graphkin.classroom.grading.keys import Keys
-from graphkin.classroom.grading.likelihood import ASTRAY, HALF, Key, fit
+from graphkin.classroom.grading.keys import ASTRAY, HALF, Key, Keys, fit
 from graphkin.classroom.grading.readings import OWN, FormFields, View
 from graphkin.classroom.grading.standard import Standard, alike, sense_is_open
 from graphkin.numbers.arithmetic import np

@@ -155,13 +155,13 @@ def row_of(
     reason = why(graded, mark, words, is_kept_back=open_yet)
     if mark.answer.written:
         text = escape(safe(mark.answer.text)) or "–"
-        reason = f"{words('feedback.read_as', text=text)}; {reason}"
+        reason = words.clauses((words("feedback.read_as", text=text), reason))
     if mark.answer.typed:
-        reason = f"{words('feedback.typed')}; {reason}"
+        reason = words.clauses((words("feedback.typed"), reason))
     if mark.decision is not None:
-        reason = f"{reason}; {decision_words(mark.decision, words)}"
+        reason = words.clauses((reason, decision_words(mark.decision, words)))
     if mark.item.field in graded.remarks:
-        reason = f"{reason}; {remark_words(graded.remarks[mark.item.field], words)}"
+        reason = words.clauses((reason, remark_words(graded.remarks[mark.item.field], words)))
     return FeedbackRow(cells, reason, mark.status)
 
 
@@ -278,7 +278,7 @@ def why(graded: Graded, mark: EarnedMark, words: Words, *, is_kept_back: bool) -
     elif mark.status is Status.FOLLOWS:
         source = source_words(graded, mark)
         parts.append(words("feedback.follows", source=source, share=percent(mark)))
-    return "; ".join(parts)
+    return words.clauses(parts)
 
 
 def source_words(graded: Graded, mark: EarnedMark) -> str:
@@ -314,9 +314,13 @@ def decision_words(decision: Decision, words: Words) -> str:
         keys = ("feedback.kept", "feedback.kept_so")
     text: str = words(keys[0], reason=reason) if reason else words(keys[1])
     if decision.answers:
-        text = f"{words('feedback.you_asked', text=escape(printable(decision.answers)))}; {text}"
+        text = words.clauses(
+            (words("feedback.you_asked", text=escape(printable(decision.answers))), text)
+        )
     if decision.asked:
-        text = f"{text}; {words('feedback.asked', reason=escape(printable(decision.asked)))}"
+        text = words.clauses(
+            (text, words("feedback.asked", reason=escape(printable(decision.asked))))
+        )
     return text
 
 
@@ -491,10 +495,10 @@ def settings_words(graded: Graded, words: Words, scene: Scene | None) -> str:
     settings = graded.taker.settings
     if scene is None:
         pairs = [f"{escape(name)} = {words.decimal(value)}" for name, value in settings.items()]
-        return "; ".join(pairs)
+        return words.clauses(pairs)
     exact = {name: Fraction(value) for name, value in settings.items()}
     own = replace(scene, values={**scene.values, **exact})
-    return "; ".join(set_parameters(own, words, settings))
+    return words.clauses(set_parameters(own, words, settings))
 
 
 def how(rubric: Rubric, words: Words) -> str:

@@ -218,7 +218,7 @@ def refuse_names(book: Gradebook, column: int, ids: int) -> None:
             head=head,
         )
         hint = message("name another one with --column")
-        raise GradebookError(Problem(book.name, found, message("one for points"), hint))
+        raise GradebookError.at(book.name, found, message("one for points"), hint)
 
 
 def text_at(row: Sequence[Cell], column: int) -> str:
@@ -286,10 +286,8 @@ def id_column(book: Gradebook, signs: Signs, match: Match) -> int:
     hint = message("the {meant} of the class list must be those of one of its columns", meant=meant)
     if match != "id" and not signs.emails:
         hint = joined("; ", (hint, message("the class list has no column e-mail")))
-    raise GradebookError(
-        Problem(
-            book.name, message("no column holds {meant} of this class", meant=meant), NO_WORDS, hint
-        )
+    raise GradebookError.at(
+        book.name, message("no column holds {meant} of this class", meant=meant), NO_WORDS, hint
     )
 
 
@@ -336,13 +334,11 @@ def mark_column(book: Gradebook, head: Sequence[str], column: str | None, ids: i
         meant = [head[i] for i in found or sorted(lacking) if head[i]]
         meant = meant or [text for text in head if text]
         names = ", ".join(f'"{text}"' for text in meant)
-        raise GradebookError(
-            Problem(
-                book.name,
-                words,
-                message("one of {names}", names=names),
-                message("name the column with --column"),
-            )
+        raise GradebookError.at(
+            book.name,
+            words,
+            message("one of {names}", names=names),
+            message("name the column with --column"),
         )
     return found[0]
 
@@ -401,8 +397,8 @@ def read_gradebook(path: Path) -> Gradebook:
     separator = separator_of(text)
     rows, ends = split(text, separator, path.name)
     if len(rows) < 2:
-        raise GradebookError(
-            Problem(path.name, message("has no row below its head"), message("a gradebook"))
+        raise GradebookError.at(
+            path.name, message("has no row below its head"), message("a gradebook")
         )
     return CsvGradebook(path.name, rows, ends, separator, coding, bom)
 
@@ -429,12 +425,8 @@ def split(
             )
         if not quoted and rest.lstrip().startswith('"'):
             place = f"{name}, row {len(rows) + 1}"
-            raise GradebookError(
-                Problem(
-                    place,
-                    message("a quote that is opened and never closed"),
-                    message('a closing "'),
-                )
+            raise GradebookError.at(
+                place, message("a quote that is opened and never closed"), message('a closing "')
             )
         if end or row or quoted or rest:
             row.append(cell(quoted + rest))
@@ -500,7 +492,7 @@ class Workbook(Gradebook, frozen=True):
                         found = message('"{text}" holds a formula', text=text)
                     hint = message("name another one with --column")
                     expected = message("a column for points")
-                    raise GradebookError(Problem(where, found, expected, hint))
+                    raise GradebookError.at(where, found, expected, hint)
                 cell.value = float(mark_text(mark, comma=False))
             book.calculation.fullCalcOnLoad = True
             return saved(book)
@@ -527,7 +519,7 @@ def refuse_loss(book: Workbook) -> None:
         found = message("has parts that would be lost: {parts}", parts=", ".join(lost))
         expected = message("cells, formats and formulas, without pictures or charts")
         hint = message("save the sheet with the marks as CSV UTF-8 and name that file")
-        raise GradebookError(Problem(book.name, found, expected, hint))
+        raise GradebookError.at(book.name, found, expected, hint)
 
 
 def saved(book: Any) -> bytes:
@@ -553,11 +545,9 @@ def read_workbook(data: bytes, name: str) -> Workbook:
             formulas |= {(len(rows), i) for i, c in enumerate(cells) if c.data_type == "f"}
             rows.append(tuple(Cell(text, text.strip()) for text in map(cell_text, cells)))
     if not rows or not rows[0]:
-        raise GradebookError(
-            Problem(name, message("has nothing in its first row"), message("the names of columns"))
+        raise GradebookError.at(
+            name, message("has nothing in its first row"), message("the names of columns")
         )
     if len(rows) < 2:
-        raise GradebookError(
-            Problem(name, message("has no row below its head"), message("a gradebook"))
-        )
+        raise GradebookError.at(name, message("has no row below its head"), message("a gradebook"))
     return Workbook(name, tuple(rows), data, frozenset(formulas))

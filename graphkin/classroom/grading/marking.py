@@ -23,8 +23,7 @@ from graphkin.classroom.grading.graded import (
     Graded,
     Status,
 )
-from graphkin.classroom.grading.keys import Keys, coarseness
-from graphkin.classroom.grading.likelihood import Key
+from graphkin.classroom.grading.keys import Key, Keys, coarseness
 from graphkin.classroom.grading.standard import Expectation, Standard, alike, sense_is_open
 from graphkin.classroom.lab.items import worth
 from graphkin.classroom.lab.lab_model import Item

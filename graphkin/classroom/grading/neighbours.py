@@ -13,7 +13,7 @@ from typing import Any
 from msgspec import Struct
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.class_standards import standards
+from graphkin.classroom.grading.class_marking import standards
 from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.marking import is_one_drawing
 from graphkin.classroom.grading.standard import Standard, sense_is_open

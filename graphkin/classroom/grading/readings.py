@@ -78,7 +78,15 @@ class FormFields(Struct, frozen=True, dict=True):
     @cached_property
     def causes(self) -> tuple[Cause, ...]:
         """All causes, those in the construction first."""
-        return (*constructed(self.variants.standards[0]), *read_otherwise(self))
+        return (
+            *constructed(self.variants.standards[0]),
+            *of_rulers(self),
+            *of_scales(self),
+            *of_units(self),
+            *of_formulas(self),
+            *of_places(self),
+            *of_table(self),
+        )
 
     @cached_property
     def items(self) -> tuple[Item, ...]:
@@ -194,6 +202,11 @@ class View(Struct, frozen=True, dict=True):
         """What a millimetre of one plan is worth, where another plan's is due."""
         return self.scales[scale]
 
+    @cached_property
+    def worth(self) -> Array:
+        """What a millimetre is worth in the drawing of each field."""
+        return np.concatenate(self.scales, axis=1)[:, self.form.plans]
+
     def factor(self, predicted: Array, among: Array, fewest: int = FEW) -> Array:
         """The factor by which a student's answers in some fields are too large; 1 where too few.
 
@@ -240,31 +253,25 @@ def reading(
     return Cause(name, way, change, reads, rare)
 
 
-def read_otherwise(form: FormFields) -> tuple[Cause, ...]:
-    """Every cause in reading the fields of a form."""
-    return (
-        *of_rulers(form),
-        *of_scales(form),
-        *of_units(form),
-        *of_formulas(form),
-        *of_places(form),
-        *of_table(form),
-    )
-
-
 def only(mask: Array, changed: Array, shown: Array) -> Array:
     """Some fields changed, the others as shown."""
     return np.where(mask, changed, shown)
 
 
-def scaled(mask: Array, factor: Callable[[View], Array], free: Array | None = None) -> Reads:
-    """Some fields a factor too large; those of ``free`` may as well be right."""
+def changing(mask: Array, how: Callable[[Array, View], Array], free: Array | None = None) -> Reads:
+    """Some fields changed; those of ``free`` may as well be right."""
 
     def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        changed = only(mask, shown * factor(view), shown)
+        with np.errstate(all="ignore"):
+            changed = only(mask, how(shown, view), shown)
         return Told(changed, None if free is None else only(free, shown, changed))
 
     return reads
+
+
+def scaled(mask: Array, factor: Callable[[View], Array], free: Array | None = None) -> Reads:
+    """Some fields a factor too large; those of ``free`` may as well be right."""
+    return changing(mask, lambda shown, view: shown * factor(view), free)
 
 
 # --- the ruler ------------------------------------------------------------------------------------
@@ -319,12 +326,11 @@ def shortened(shift: float) -> Misread:
 def shifted(form: FormFields, mask: Array, shift: float, *, upwards: bool = False) -> Reads:
     """Lengths too long by some millimetres; with ``upwards`` coordinates too large by as many."""
 
-    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
+    def moved(shown: Array, view: View) -> Array:
         way = np.where(form.centres, 1.0, np.sign(shown)) if upwards else np.sign(shown)
-        changed = only(mask, shown + shift * view.units * way, shown)
-        return Told(changed, only(form.formulas, shown, changed))
+        return shown + shift * view.units * way
 
-    return reads
+    return changing(mask, moved, form.formulas)
 
 
 # --- scale factors --------------------------------------------------------------------------------
@@ -342,8 +348,12 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
     for mask, own, other in ((first, 1, 2), (second, 2, 1), (first, 1, 0), (second, 2, 0)):
         way = f"{other} for {own}"
         yield reading("wrong_scale", way, scaled(mask, exchanged(own, other), form.rates))
-    both = crossed(form, first, second)
-    yield reading("wrong_scale", "exchanged", both)
+
+    def crossed(shown: Array, view: View) -> Array:
+        kv, ka = view.own(1), view.own(2)
+        return np.where(first, shown * ka / kv, shown * kv / ka)
+
+    yield reading("wrong_scale", "exchanged", changing(either, crossed, form.rates))
     owns = (("1", first), ("2", second), ("1 and 2", either), ("3", third))
     for plans, mask in owns if third.any() else owns[:3]:
         for free in (None, form.rates) if (mask & form.rates).any() else (None,):
@@ -351,7 +361,7 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
             yield reading("wrong_scale", way, by_own(form, mask, free))
     yield reading("scale_missing", "values", forgotten(form))
     if form.lengths.any():
-        yield reading("scale_missing", "lengths", taken_in_full(form))
+        yield reading("scale_missing", "lengths", scaled(form.lengths, lambda view: view.worth))
         yield reading("drawn_in_full", "", scaled(form.lengths, lambda view: 1000 * view.own(0)))
         for number in range(1, len(SCALES)):
             mask = form.lengths & (form.plans == number)
@@ -372,17 +382,6 @@ def of_scales(form: FormFields) -> Iterator[Cause]:
 def powered(power: float) -> Callable[[View], Array]:
     """A power of the scale of the mechanism."""
     return lambda view: (1000 * view.own(0)) ** power
-
-
-def crossed(form: FormFields, first: Array, second: Array) -> Reads:
-    """The scales of both plans exchanged."""
-
-    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        _, kv, ka, _ = view.scales
-        changed = only(first, shown * ka / kv, only(second, shown * kv / ka, shown))
-        return Told(changed, only(form.rates, shown, changed))
-
-    return reads
 
 
 def by_own(form: FormFields, mask: Array, free: Array | None) -> Reads:
@@ -429,23 +428,8 @@ def forgotten(form: FormFields) -> Reads:
         with np.errstate(all="ignore"):
             drawn = np.where(view.units > 0, 1 / view.units, np.nan)
         changed = only(vectors, shown * drawn, shown)
-        return Told(changed, only(form.rates, shown * drawn_rates(view, form), changed))
-
-    return reads
-
-
-def drawn_rates(view: View, form: FormFields) -> Array:
-    """The factor of a rate computed from a length in mm over a bar in metres."""
-    scales = np.concatenate(view.scales, axis=1)
-    return 1 / scales[:, form.plans]
-
-
-def taken_in_full(form: FormFields) -> Reads:
-    """Lengths given in the units of their plan."""
-
-    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        scales = np.concatenate(view.scales, axis=1)
-        return Told(only(form.lengths, shown * scales[:, form.plans], shown))
+        rates = shown * (1 / view.worth)  # computed from a length in mm over a bar in metres
+        return Told(changed, only(form.rates, rates, changed))
 
     return reads
 
@@ -472,11 +456,7 @@ def of_units(form: FormFields) -> Iterator[Cause]:
 def free_factors(factors: Array, free: Array) -> Reads:
     """Fields off by their factors; those of ``free`` may as well be right."""
 
-    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        changed = shown * factors
-        return Told(changed, only(free, shown, changed))
-
-    return reads
+    return changing(True, lambda shown, view: shown * factors, free)
 
 
 def of_ten(form: FormFields, *, whole: bool = False) -> Reads:
@@ -540,7 +520,7 @@ def of_formulas(form: FormFields) -> Iterator[Cause]:
     """Rates and components computed from another vector than the right one; ratios turned over."""
     layout = form.variants.layout
     if form.ratios.any():
-        yield reading("ratio_inverted", "", inverted(form.ratios))
+        yield reading("ratio_inverted", "", changing(form.ratios, lambda shown, view: 1 / shown))
     steps = layout.program.steps
     turns = [
         (place, steps[probe.step].args, probe.item.quantity)
@@ -604,16 +584,6 @@ def components_beside(form: FormFields) -> Iterator[tuple[int, int]]:
             alike = k > i and each.what == item.what and vector is not None
             if alike and vector is not None and vector.symbol == other:
                 yield i, k
-
-
-def inverted(mask: Array) -> Reads:
-    """Some fields written as their reciprocals."""
-
-    def reads(shown: Array, view: View, values: Mapping[int, Value]) -> Told:
-        with np.errstate(all="ignore"):
-            return Told(only(mask, 1 / shown, shown))
-
-    return reads
 
 
 def exchanged(pairs: list[tuple[int, int]]) -> Reads:

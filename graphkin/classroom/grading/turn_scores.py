@@ -85,7 +85,7 @@ def read_turns(path: Path, codes: Mapping[str, str], refusals: Refusals) -> list
             who = read.id or file.stem.removesuffix(SAVED_AS)
             if who not in codes:
                 said = message('"{sign}" is no student of this class', sign=visible(who))
-                raise RosterError(Problem(file.name, said))
+                raise RosterError.at(file.name, said)
             score = TurnScore(who, file.name, read, state_of(codes[who], read))
             found.setdefault(who, []).append(score)
     kept = [each for who in codes for each in only(found.get(who, ()))]
@@ -113,9 +113,7 @@ def turn_file(file: Path) -> TurnFile:
         with file.open("rb") as opened:
             return msgspec.json.decode(opened.read(MOST), type=TurnFile)
     except (OSError, msgspec.MsgspecError, UnicodeDecodeError, RecursionError) as reason:
-        raise RosterError(
-            Problem(file.name, verbatim(visible(str(reason))), expected, hint)
-        ) from None
+        raise RosterError.at(file.name, verbatim(visible(str(reason))), expected, hint) from None
 
 
 def seal_of(code: str, sheet: TurnFile) -> str:

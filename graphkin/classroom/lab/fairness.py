@@ -42,6 +42,7 @@ from graphkin.drawing.scale import Extent, Scales
 from graphkin.mechanism import Mechanism
 from graphkin.numbers.arithmetic import batch_kind, larger, np
 from graphkin.numbers.plane import Ratio, Vector
+from graphkin.scene.quantity import force_in
 
 Array = Any
 
@@ -398,7 +399,9 @@ def put_forces(
     paper = paper_of(stated.paper, stated.frame)
     ends = paper.fields[0] + mechanism_fields(sheets, scales, paper).width
     left, top, right, low = paper.beside((0.0, 0.0, ends, 0.0))
-    kF = smallest(cells_of(extents), np.broadcast_to(right - left, len(which)), low - top)
+    newton = float(force_in(mechanism.scene.unit_of_results) / force_in(mechanism.scene.base))
+    cells = cells_of(extents.in_units(newton))
+    kF = newton * smallest(cells, np.broadcast_to(right - left, len(which)), low - top)
     found.fits[which] &= np.isfinite(kF)
     lengths = {}
     for item in form:

@@ -42,7 +42,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.house import PLAIN, House
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
-from graphkin.scene.quantity import LENGTHS, Quantity, shortest
+from graphkin.scene.quantity import SI, Quantity, shortest
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError, message
 
@@ -307,9 +307,7 @@ class Item(Struct, frozen=True, dict=True):
     @cached_property
     def one(self) -> float:
         """One of its unit as it is marked: in SI, but lengths on paper in mm."""
-        length = self.unit.partition("/")[0]
-        on_paper = self.unit == "mm"
-        return float(LENGTHS[length]) if length in LENGTHS and not on_paper else 1.0
+        return float(SI[self.unit][0]) if self.unit in SI and self.unit != "mm" else 1.0
 
     def beside(self, what: What, axis: str = "") -> str:
         """The name of another field of the same quantity."""
@@ -383,7 +381,7 @@ def own_values(lab: Lab, several: SeveralValues, student: Student, attempt: int)
             wrong = message(
                 "number {number} gets {value} twice", number=student.number, value=shortest(twice)
             )
-            raise SceneError(Problem(place, wrong, message("different values")))
+            raise SceneError.at(place, wrong, message("different values"))
         return found
     places: list[int] = []
     for part in range(1, several.count + 1):
@@ -402,7 +400,7 @@ def by_formula(rule: LabRule, student: Student) -> Settings:
     Raises SceneError where the number is missing, or a value is not rational.
     """
     if rule.counts and student.number is None:
-        raise SceneError(Problem("", message("has no number, and the lab's formula needs one")))
+        raise SceneError.at("", message("has no number, and the lab's formula needs one"))
     return {
         name: at_number(formula, student, f"set.{name}") for name, formula in rule.settings.items()
     }
@@ -418,7 +416,7 @@ def at_number(formula: Quantity, student: Student, place: str) -> Fraction:
             value=shortest(value),
             number=student.number,
         )
-        raise SceneError(Problem(place, wrong))
+        raise SceneError.at(place, wrong)
     return value
 
 

@@ -20,7 +20,6 @@ from graphkin.classroom.grading.readings import FormFields
 from graphkin.classroom.grading.standard import standard
 from graphkin.classroom.lab.fair_ranges import FairRanges, ends, fair_ranges, space_of
 from graphkin.classroom.lab.fairness import judged
-from graphkin.classroom.lab.fairness_words import draw_words, limit_words
 from graphkin.classroom.lab.items import (
     all_fields,
     arrow_items,
@@ -46,7 +45,7 @@ from graphkin.classroom.lab.lab_model import (
     ValueList,
     exact_text,
 )
-from graphkin.classroom.lab.lab_trial import CLASS, LabTrial, tried
+from graphkin.classroom.lab.lab_trial import CLASS, LabTrial, draw_words, limit_words, tried
 from graphkin.classroom.lab.read_lab import LAB, SCENE, lab_of
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
@@ -69,7 +68,7 @@ from graphkin.scene.file_limits import decoded, read_bytes
 from graphkin.scene.model import DRIVEN, JOINED
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from graphkin.text.errors import GraphkinError, Problem, SceneError, message
+from graphkin.text.errors import GraphkinError, SceneError, message
 from graphkin.text.tables import Say, labelled, table
 from graphkin.writers.files import RESERVED, refuse_folder, write_all
 
@@ -413,7 +412,7 @@ def check_name(name: str) -> None:
     if not NAME.fullmatch(name) or name.upper() in RESERVED:
         expected = message("letters, digits, - and _, at most 60, such as crank-lab")
         hint = message("-o DIR says in which folder it is made")
-        raise SceneError(Problem(f'"{name}"', message("is no name for a lab"), expected, hint))
+        raise SceneError.at(f'"{name}"', message("is no name for a lab"), expected, hint)
 
 
 class OwnLab(Struct, frozen=True):

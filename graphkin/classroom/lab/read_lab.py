@@ -45,6 +45,8 @@ LAB, SCENE = scene_files.LAB, scene_files.SCENE
 USUAL, LIMITS = Rubric(), Fair()
 OPEN = -1.0
 """The value of a limit that is not written."""
+MOST = {"follow": 1, "point": 10, "line": 10, "ruler": 10, "floor": 1, "cap": 1, "rounded": 1}
+"""The largest value of each number in [marking]."""
 MOST_TRIES = 10_000
 MOST_DIGITS = 12
 FEWEST, MOST_SHEETS = 2, 12
@@ -94,17 +96,15 @@ def find(name: str | Path) -> Path:
             else message("is no lab")
         )
         hint = message("graphkin new lab NAME makes a lab to start from")
-        raise SceneError(
-            Problem(str(name), found, message("a folder with scene.toml and {lab}", lab=LAB), hint)
+        raise SceneError.at(
+            str(name), found, message("a folder with scene.toml and {lab}", lab=LAB), hint
         )
     near = near_name(str(name), known)
     hint = message("did you mean {new}?", new=near) if near else NO_WORDS
     expected = message(
         "a folder with scene.toml and {lab}, or one of {known}", lab=LAB, known=", ".join(known)
     )
-    raise SceneError(
-        Problem(str(name), message("is neither a folder nor a shipped lab"), expected, hint)
-    )
+    raise SceneError.at(str(name), message("is neither a folder nor a shipped lab"), expected, hint)
 
 
 def with_rules() -> list[str]:
@@ -122,8 +122,8 @@ def lab_of(text: str, folder: Path, mechanism: Mechanism, name: str) -> Lab:
     findings = Findings()
     top = Table("", tables_of(text, findings), findings)
     if not top.raw:
-        raise SceneError(
-            Problem("", message("the file is empty"), message("graphkin = 1, then [variants]"))
+        raise SceneError.at(
+            "", message("the file is empty"), message("graphkin = 1, then [variants]")
         )
     check_version(top, findings)
     rule = read_rule(top.table("variants"), mechanism.scene)
@@ -151,10 +151,8 @@ def read_rule(table: Table, scene: Scene) -> LabRule:
     for key in ("course", "tries") if of_number else ():
         if key in table:
             table.take(key)
-            table.findings.add(
-                table.at(key),
-                message("belongs to ranges"),
-                message("draw = {{ … }}, or leave it out"),
+            table.wrong(
+                key, message("belongs to ranges"), message("draw = {{ … }}, or leave it out")
             )
     table.known += ["set", "draw", "positions"]
     table.finish()
@@ -275,7 +273,7 @@ def read_ranges(table: Table, scene: Scene, positions: SeveralValues | None) -> 
     course = table.text("course").strip()
     if not course and not table.findings.inside(table.at("course")):
         expected = message('a text, such as course = "mechanics 2026", to draw anew each year')
-        table.findings.add(table.at("course"), message("is missing"), expected)
+        table.wrong("course", message("is missing"), expected)
     tries = whole(table, "tries", 100, 1, MOST_TRIES)
     inner = table.table("draw")
     names = known_parameters(inner, scene) if "draw" in table else []
@@ -311,12 +309,7 @@ def known_parameters(table: Table, scene: Scene) -> list[str]:
     for name in table.raw:
         if name not in scene.parameters:
             expected = listed(scene.parameters) or message("a parameter, and the scene has none")
-            table.findings.add(
-                table.at(name),
-                message("is no parameter"),
-                expected,
-                nearest(name, scene.parameters),
-            )
+            table.wrong(name, message("is no parameter"), expected, nearest(name, scene.parameters))
     if not table.raw and not table.findings.inside(table.place.partition(".")[0]):
         table.findings.add(table.place, message("sets no parameter"), listed(scene.parameters))
     return [name for name in table.raw if name in scene.parameters]
@@ -366,26 +359,20 @@ def read_range(table: Table, parameter: Parameter) -> Range | None:
     ends = {key: optional(table, key) for key in ("min", "max", "step")}
     missing = [key for key in ends if key not in table]
     for key in missing:
-        table.findings.add(
-            table.at(key), message("is missing"), message("{{ min = …, max = …, step = … }}")
-        )
+        table.wrong(key, message("is missing"), message("{{ min = …, max = …, step = … }}"))
     table.finish()
     if any(end is None for end in ends.values()):
         return None
     least, most, step = (plain(end) for end in ends.values() if end is not None)
     if step <= 0:
-        table.findings.add(table.at("step"), verbatim(shortest(step)), message("a number above 0"))
+        table.wrong("step", verbatim(shortest(step)), message("a number above 0"))
     elif least > most:
-        table.findings.add(
-            table.at("min"),
-            message("{least} is above max", least=shortest(least)),
-            message("at most max"),
+        table.wrong(
+            "min", message("{least} is above max", least=shortest(least)), message("at most max")
         )
     elif (most - least) / step >= MOST_VALUES:
-        table.findings.add(
-            table.at("step"),
-            message("makes too many values"),
-            message("at most {most}", most=MOST_VALUES),
+        table.wrong(
+            "step", message("makes too many values"), message("at most {most}", most=MOST_VALUES)
         )
     else:
         found = Range(least, most, step)
@@ -415,17 +402,13 @@ def read_fair(table: Table) -> Fair:
             else []
         )
         if not ends:
-            table.findings.add(
-                table.at("triangle"), shown(raw), message("two numbers [least, most] of v/l")
-            )
+            table.wrong("triangle", shown(raw), message("two numbers [least, most] of v/l"))
         elif None not in ends:
             low, high = (float(plain(end)) for end in ends if end is not None)
             triangle = (low, high)
             if not 0 <= low < high:
-                table.findings.add(
-                    table.at("triangle"),
-                    verbatim(f"[{low:g}, {high:g}]"),
-                    message("0 ≤ least < most"),
+                table.wrong(
+                    "triangle", verbatim(f"[{low:g}, {high:g}]"), message("0 ≤ least < most")
                 )
     shares = [number(table, key, OPEN, 0, 1) for key in ("apart", "pencil")]
     apart, pencil = (None if share == OPEN else share for share in shares)
@@ -440,34 +423,20 @@ def read_rubric(marks: Table, marking: Table, mechanism: Mechanism) -> Rubric:
     for name, raw in marks.raw.items():
         if name not in known:
             expected = message("a field of the form: {known}", known=listed(known))
-            marks.findings.add(
-                marks.at(name), message("no field of this scene"), expected, nearest(name, known)
-            )
+            marks.wrong(name, message("no field of this scene"), expected, nearest(name, known))
             continue
         read = rational(marks.at(name), raw, marks.findings)
         if read is not None and plain(read) < 0:
-            marks.findings.add(
-                marks.at(name), verbatim(read.text), message("points, not less than 0")
-            )
+            marks.wrong(name, verbatim(read.text), message("points, not less than 0"))
         elif read is not None:
             points[name] = plain(read)
     grades = read_grades(marking.table("grades"))
     causes, own = read_causes(marking.table("causes"), mechanism.scene)
-    given = {
-        "follow": number(marking, "follow", USUAL.follow, 0, 1),
-        "point": number(marking, "point", USUAL.point, 0, 10),
-        "line": number(marking, "line", USUAL.line, 0, 10),
-        "ruler": number(marking, "ruler", USUAL.ruler, 0, 10),
-        "floor": number(marking, "floor", USUAL.floor, 0, 1),
-        "cap": number(marking, "cap", USUAL.cap, 0, 1),
-        "rounded": number(marking, "rounded", USUAL.rounded, 0, 1),
-    }
+    given = {key: number(marking, key, getattr(USUAL, key), 0, most) for key, most in MOST.items()}
     digits = read_digits(marking)
     if given["floor"] > given["cap"]:
-        marking.findings.add(
-            marking.at("floor"),
-            message("{given:g} is above cap", given=given["floor"]),
-            message("at most cap"),
+        marking.wrong(
+            "floor", message("{given:g} is above cap", given=given["floor"]), message("at most cap")
         )
     hold, says_right = marking.flag("hold"), marking.flag("says_right")
     marking.finish()
@@ -492,7 +461,7 @@ def read_digits(table: Table) -> tuple[int, int] | None:
     whole = [end for end in ends if isinstance(end, int) and not isinstance(end, bool)]
     if len(whole) != 2 or len(ends) != 2 or not 1 <= whole[0] <= whole[1] <= MOST_DIGITS:
         expected = message("two whole numbers [fewest, most] from 1 to {most}", most=MOST_DIGITS)
-        table.findings.add(table.at("digits"), shown(raw), expected)
+        table.wrong("digits", shown(raw), expected)
         return None
     return whole[0], whole[1]
 
@@ -513,9 +482,7 @@ def read_causes(table: Table, scene: Scene) -> tuple[dict[str, float | str], dic
             own[name] = read_own_cause(table.table(name), name, scene)
         elif name not in CAUSES:
             hint = nearest(name, CAUSES)
-            table.findings.add(
-                table.at(name), message("no cause has this name"), joined(", ", CAUSES), hint
-            )
+            table.wrong(name, message("no cause has this name"), joined(", ", CAUSES), hint)
         else:
             found[name] = read_cost(table, name, 0)
     return found, own
@@ -530,7 +497,7 @@ def read_cost(table: Table, key: str, default: float | str) -> float | str:
     if raw in SHARES:
         return raw
     expected = message("{grades} or a number from 0 to 1", grades=joined(", ", tuple(SHARES)))
-    table.findings.add(table.at(key), shown(raw), expected, nearest(raw, SHARES))
+    table.wrong(key, shown(raw), expected, nearest(raw, SHARES))
     return default
 
 
@@ -561,8 +528,8 @@ def number(table: Table, key: str, default: float, least: float, most: float) ->
         return default
     value = float(plain(read))
     if not least <= value <= most:
-        table.findings.add(
-            table.at(key),
+        table.wrong(
+            key,
             verbatim(read.text),
             message("a number from {least:g} to {most:g}", least=least, most=most),
         )
@@ -574,5 +541,5 @@ def whole(table: Table, key: str, default: int, least: int, most: int) -> int:
     """A whole number between two bounds; the default where it is missing or wrong."""
     value = number(table, key, default, least, most)
     if value != int(value):
-        table.findings.add(table.at(key), verbatim(f"{value:g}"), message("a whole number"))
+        table.wrong(key, verbatim(f"{value:g}"), message("a whole number"))
     return int(value)

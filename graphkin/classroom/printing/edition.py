@@ -141,29 +141,22 @@ def tables(folder: Path) -> dict[str, Any]:
         reason = reason_of(error)
         hint = message("graphkin variants LAB ROSTER -o DIR makes one")
         found = message("cannot be read: {reason}", reason=reason)
-        raise SceneError(Problem(str(path), found, message("a class folder"), hint)) from error
+        raise SceneError.at(str(path), found, message("a class folder"), hint) from error
     except (ValueError, RecursionError) as error:
-        raise SceneError(
-            Problem(str(path), message("is no JSON text"), message("a manifest"), AGAIN)
+        raise SceneError.at(
+            str(path), message("is no JSON text"), message("a manifest"), AGAIN
         ) from error
     if not isinstance(raw, dict) or not isinstance(raw.get("students"), list):
-        raise SceneError(
-            Problem(str(path), message("has no list of students"), message("a manifest"), AGAIN)
+        raise SceneError.at(
+            str(path), message("has no list of students"), message("a manifest"), AGAIN
         )
     if raw.get("format") != FORMAT:
         found = message("has format {value!r}", value=raw.get("format"))
-        raise SceneError(
-            Problem(
-                str(path),
-                found,
-                message("format {format}", format=FORMAT),
-                message("update graphkin"),
-            )
+        raise SceneError.at(
+            str(path), found, message("format {format}", format=FORMAT), message("update graphkin")
         )
     if not raw["students"]:
-        raise SceneError(
-            Problem(str(path), message("has no student"), message("one at least"), AGAIN)
-        )
+        raise SceneError.at(str(path), message("has no student"), message("one at least"), AGAIN)
     return raw
 
 
@@ -339,13 +332,8 @@ def inside(folder: Path, name: str) -> Path:
     whole = folder.resolve()
     if not path.resolve().is_relative_to(whole):
         found = message("leads to {folder}", folder=path.resolve())
-        raise PageError(
-            Problem(
-                str(path),
-                found,
-                message("a file in {whole}", whole=whole),
-                message("remove the link"),
-            )
+        raise PageError.at(
+            str(path), found, message("a file in {whole}", whole=whole), message("remove the link")
         )
     return path
 

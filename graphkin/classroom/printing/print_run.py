@@ -209,7 +209,10 @@ class Sheets:
         """The form for answers."""
         first: Drawing = self.drawings[0]
         settings = parameters(first.scene, self.words)
-        title, name = "; ".join([escape(title_of(first)), *settings]), self.words("form.title")
+        title, name = (
+            self.words.clauses([escape(title_of(first)), *settings]),
+            self.words("form.title"),
+        )
         fields, points = self.asked()
         whose, pivot = (self.whose.name, self.whose.code), next(iter(first.scene.frame.points), "")
         school = self.lab.house.header
@@ -444,7 +447,7 @@ def stopped(folder: Path, error: OSError) -> PageError:
     """The error of a run that could not write: a full disk, or a folder without permission."""
     found = message("cannot be written: {error}", error=reason_of(error))
     hint = message("finished files are kept: correct this, then run the same command to continue")
-    return PageError(Problem(str(error.filename or folder), found, hint=hint))
+    return PageError.at(str(error.filename or folder), found, hint=hint)
 
 
 class PrintRun:

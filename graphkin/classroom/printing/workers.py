@@ -20,7 +20,7 @@ from contextlib import contextmanager
 from itertools import chain, islice
 from typing import Any, TypeVar
 
-from graphkin.text.errors import PageError, Problem, message
+from graphkin.text.errors import PageError, message
 
 CHUNK = 25
 """The most students in a chunk."""
@@ -113,7 +113,7 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
     except ImportError as error:
         found = message("needs dask.distributed, which is not installed")
         hint = message("install graphkin[cluster]")
-        raise PageError(Problem(f"--engine {address}", found, hint=hint)) from error
+        raise PageError.at(f"--engine {address}", found, hint=hint) from error
     try:
         client = Client(f"tcp://{address.removeprefix(CLUSTER)}", timeout=10)
     except (OSError, ValueError) as error:
@@ -121,7 +121,7 @@ def cluster(address: str) -> Iterator[tuple[Executor, int]]:
             message("does not answer"),
             message("{cluster}HOST:PORT of a Dask scheduler", cluster=CLUSTER),
         )
-        raise PageError(Problem(f"--engine {address}", found, expected)) from error
+        raise PageError.at(f"--engine {address}", found, expected) from error
     with client:
         yield client.get_executor(), max(1, sum(client.nthreads().values()))
 
@@ -160,9 +160,7 @@ def results(
             hint = message(
                 "the memory may be too small: run the same command with --jobs 1 to continue"
             )
-            raise PageError(
-                Problem("print", message("a worker ended suddenly"), hint=hint)
-            ) from error
+            raise PageError.at("print", message("a worker ended suddenly"), hint=hint) from error
     finally:
         for future in waiting:
             future.cancel()

@@ -205,7 +205,7 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
         for gap, weight in zip(found, heavy, strict=True)
     ]
     shown = {
-        "title": harmless(scene.titles.get(words.language, scene.title)),
+        "title": gapless(escape(scene.titles.get(words.language, scene.title))),
         "variant": gapless(", ".join(map(marked_up, data))),
         "printed": PRINTED,
         "pictures": [name for name, _ in files if name != PRINTED],
@@ -222,11 +222,6 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
 
 def said(what: str, words: Words) -> str:
     return words(KINDS[what]) if what in KINDS else words("table.sense")
-
-
-def harmless(text: str) -> Markup:
-    """A text near gaps, escaped so that Moodle does not read it as a gap."""
-    return gapless(escape(text))
 
 
 def gapless(markup: str) -> Markup:

@@ -66,7 +66,7 @@ def too_large(name: str, found: Message) -> RosterError:
         most_columns=MOST_COLUMNS,
         most_cells=MOST_CELLS,
     )
-    return RosterError(Problem(name, found, expected))
+    return RosterError.at(name, found, expected)
 
 
 # --- reading tables -------------------------------------------------------------------------------
@@ -211,8 +211,8 @@ def sheet_in(
     rows: Iterable[SheetRow]
     if data.startswith(OLD_EXCEL):
         hint = message("save it as .xlsx or as CSV UTF-8")
-        raise RosterError(
-            Problem(name, message("is an old Excel file (.xls)"), message("CSV or XLSX"), hint)
+        raise RosterError.at(
+            name, message("is an old Excel file (.xls)"), message("CSV or XLSX"), hint
         )
     if data.startswith(ZIP):
         rows, separator = list(xlsx_rows(data, name)), "\t"
@@ -234,16 +234,12 @@ def bytes_of(path: Path) -> bytes:
         reason = getattr(error, "strerror", None) or message("cannot be opened")
         reason = reason if isinstance(reason, Message) else f"{reason[:1].lower()}{reason[1:]}"
         found = message("cannot be read: {reason}", reason=reason)
-        raise RosterError(
-            Problem(str(path), found, message("a table, CSV or XLSX"), beside(path))
+        raise RosterError.at(
+            str(path), found, message("a table, CSV or XLSX"), beside(path)
         ) from None
     if len(data) > LARGEST:
-        raise RosterError(
-            Problem(
-                path.name,
-                message("is too large"),
-                message("at most {most} MiB", most=LARGEST >> 20),
-            )
+        raise RosterError.at(
+            path.name, message("is too large"), message("at most {most} MiB", most=LARGEST >> 20)
         )
     return data
 
@@ -275,8 +271,8 @@ def text_of(data: bytes, name: str) -> str:
         row = text.count("\n", 0, text.index("\0")) + 1
         hint = message("save the table again as CSV UTF-8")
         at = InTable(name, row)
-        raise RosterError(
-            Problem(at.message, message("a NUL character"), message("a text"), hint, about=(at,))
+        raise RosterError.at(
+            at.message, message("a NUL character"), message("a text"), hint, about=(at,)
         )
     return text
 
@@ -346,7 +342,7 @@ def csv_rows(text: str, separator: str, faults: TableProblems) -> Iterator[Sheet
             message("more than {most} quotes that are never closed", most=MOST),
             message("the rest is not read"),
         )
-        raise RosterError(Problem(faults.name, found, message('a closing " in each cell'), hint))
+        raise RosterError.at(faults.name, found, message('a closing " in each cell'), hint)
 
 
 def loose_cells(line: str, separator: str) -> list[str]:
@@ -383,10 +379,8 @@ def sheet_of(
         raise RosterError(faults.problems)
     if head is None:
         faults.stop()
-        raise RosterError(
-            Problem(
-                name, message("the table is empty"), message("a head, then a row for each student")
-            )
+        raise RosterError.at(
+            name, message("the table is empty"), message("a head, then a row for each student")
         )
     width = len(head.cells)
     if width > MOST_COLUMNS:
@@ -575,9 +569,7 @@ def opened(data: bytes, name: str, *, data_only: bool, read_only: bool = True) -
     except ImportError:
         hint = message("or install it: pip install 'graphkin[class]'")
         found = message("is an XLSX file, and openpyxl, which reads those, is not installed")
-        raise RosterError(
-            Problem(name, found, message("the table saved as CSV UTF-8"), hint)
-        ) from None
+        raise RosterError.at(name, found, message("the table saved as CSV UTF-8"), hint) from None
     try:
         refuse_bomb(data, name)
         with catch_warnings():  # openpyxl warns of parts it skips, which are not written either
@@ -608,13 +600,11 @@ def refuse_bomb(data: bytes, name: str) -> None:
     with zipfile.ZipFile(io.BytesIO(data)) as packed:
         size = sum(part.file_size for part in packed.infolist())
         if size > LARGEST_UNPACKED:
-            raise RosterError(Problem(name, message("is far larger unpacked"), expected))
+            raise RosterError.at(name, message("is far larger unpacked"), expected)
         elements = sum(map(elements_of, map(packed.open, packed.infolist())))
     if elements > MOST_ELEMENTS:
-        raise RosterError(
-            Problem(
-                name, message("holds about {elements} XML elements", elements=elements), expected
-            )
+        raise RosterError.at(
+            name, message("holds about {elements} XML elements", elements=elements), expected
         )
 
 
@@ -627,9 +617,7 @@ def elements_of(part: IO[bytes]) -> int:
 def unreadable(name: str) -> RosterError:
     """The error for a file that is not a workbook."""
     hint = message("open it in a spreadsheet and save it again, or as CSV UTF-8")
-    return RosterError(
-        Problem(name, message("cannot be read as XLSX"), message("a workbook"), hint)
-    )
+    return RosterError.at(name, message("cannot be read as XLSX"), message("a workbook"), hint)
 
 
 def is_bare(cell: Any) -> bool:

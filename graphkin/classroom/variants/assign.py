@@ -112,7 +112,7 @@ def assigned(
             count=len(students),
         )
         hint = message("split the list, or take those limits out")
-        raise RosterError(Problem(roster, found, message("at most {most}", most=MOST), hint))
+        raise RosterError.at(roster, found, message("at most {most}", most=MOST), hint)
     if lab.rule.counts:
         refuse_misfits(lab, students, roster)
     say(f"data of {len(students)} students")

@@ -10,7 +10,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from graphkin.classroom.grading.neighbours import compared, unsure_fields
-from graphkin.classroom.lab.fairness_words import (
+from graphkin.classroom.lab.lab_model import Lab, exact_text
+from graphkin.classroom.lab.lab_trial import (
     apart_lines,
     data_words,
     fields_by_whom,
@@ -20,7 +21,6 @@ from graphkin.classroom.lab.fairness_words import (
     spread_table,
     spreads,
 )
-from graphkin.classroom.lab.lab_model import Lab, exact_text
 from graphkin.classroom.roster.students import Student, counted
 from graphkin.classroom.variants.assign import (
     COPY,

@@ -21,7 +21,7 @@ from graphkin.construction.core.quantities import (
 from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
-from graphkin.scene.quantity import LENGTHS, SI
+from graphkin.scene.quantity import SI
 from graphkin.text import words
 from graphkin.text.tables import Cell, csv_text, labelled, listed
 
@@ -218,7 +218,7 @@ def number_words(cycle: Cycle, pieces: Sequence[Piece]) -> Iterator[str]:
     for numbers, run in groupby(pieces, numbered):
         part = list(run)
         low, high = part[0].low.at, part[-1].high.at
-        if not is_short(cycle, low, high):
+        if at_words(cycle.sweep, low) != at_words(cycle.sweep, high):  # else too short to print
             stated = ", ".join(f'{name} = "closure {number}"' for name, number in numbers)
             yield f"{span_words(cycle, low, high)}: {stated}"
 
@@ -227,11 +227,6 @@ def numbered(piece: Piece) -> tuple[tuple[str, int], ...]:
     """The links whose closures are numbered on a piece, and their numbers."""
     found = piece.branches.items()
     return tuple((name, b.number) for name, b in found if isinstance(b, Closure))
-
-
-def is_short(cycle: Cycle, low: float, high: float) -> bool:
-    """Whether two places are printed with the same figures."""
-    return at_words(cycle.sweep, low) == at_words(cycle.sweep, high)
 
 
 def span_words(cycle: Cycle, low: float, high: float) -> str:
@@ -484,9 +479,8 @@ def in_results(cycle: Cycle, value: float, unit: str) -> str:
     """A value in SI, in the unit of results, with that unit."""
     if unit == "°":
         return f"{value:.3f}°"
-    base = cycle.scene.unit_of_results
-    own = words("en", length=base).unit(unit)
-    size = value if own == unit else value / float(LENGTHS[base])
+    own = words("en", length=cycle.scene.unit_of_results).unit(unit)
+    size = value if own == unit else value / float(SI[own][0])
     return f"{short(size)} {own}".rstrip()
 
 

@@ -1,7 +1,11 @@
-"""Reactions and balance as JSON and as text, in SI units; counter-clockwise is positive."""
+"""Reactions and balance as JSON and as text, in the units of their mechanism.
+
+Counter-clockwise is positive.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from graphkin.cli.report.solution_record import Record, pair, real
@@ -47,8 +51,9 @@ def reaction_record(each: PairReaction) -> dict[str, Any]:
     return found
 
 
-def force_lines(found: Record) -> list[str]:
-    """The record in aligned tables, each table after an empty line."""
+def force_lines(found: Record, unit: Callable[[str], str]) -> list[str]:
+    """The record in aligned tables, each table after an empty line, with the names of units."""
+    force, turning = unit("N"), unit("N·m")
     lines: list[str] = []
     rows: list[list[Cell]] = []
     forces = [e["force"] for on in found.get("reactions", {}).values() for e in on.values()]
@@ -61,16 +66,17 @@ def force_lines(found: Record) -> list[str]:
                 [name, "frame" if link == FRAME else link, x, y, size, moment_of(each, biggest)]
             )
     if rows:
-        heads = ["reaction", "on link", "Fx, N", "Fy, N", "F, N", "moment, N·m"]
+        heads = ["reaction", "on link", *(f"{each}, {force}" for each in ("Fx", "Fy", "F"))]
+        heads.append(f"moment, {turning}")
         lines += ["", *table(heads, rows)]
     for name, each in found.get("balance", {}).items():
         link = name.replace("-", " against ")
         if "moment" in each:
-            lines += ["", f"balance  moment on link {link}: {each['moment']:.6g} N·m"]
+            lines += ["", f"balance  moment on link {link}: {each['moment']:.6g} {turning}"]
         else:
             x, y = each["force"]
-            along = f"{abs(complex(x, y)):.6g} N along the guide"
-            lines += ["", f"balance  force on link {link}: ({x:.6g}, {y:.6g}) N, {along}"]
+            along = f"{abs(complex(x, y)):.6g} {force} along the guide"
+            lines += ["", f"balance  force on link {link}: ({x:.6g}, {y:.6g}) {force}, {along}"]
     return [*lines, "", f"forces   {force_verdict_words(found['force_witness'])}"]
 
 

@@ -47,7 +47,6 @@ from graphkin.construction.core.vocabulary import action, perpendicular_at
 from graphkin.drawing.symbol_markup import bar, symbol
 from graphkin.numbers.arithmetic import Point, Real
 from graphkin.numbers.plane import Circle, Line, Ratio, cross, crossing_sine, dot
-from graphkin.text import AND
 
 # --- its value, and the steps by hand ------------------------------------------------------------
 
@@ -171,7 +170,7 @@ class CurvatureEdge(LineToCentre, frozen=True, kw_only=True):
         if role == "foot" and self.explains_scales(drawing):
             fields["scales"] = scales_of_triangle(drawing)
             said.append(drawing.words("step.curvature-scales", **fields))
-        return AND.join(said)
+        return drawing.words.clauses(said)
 
     def explains_scales(self, drawing: Drawing) -> bool:
         """Whether it is the first on a sheet whose plans are larger than its vectors."""

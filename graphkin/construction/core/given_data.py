@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from fractions import Fraction
 
@@ -664,7 +665,7 @@ def cam_points(scene: Scene, words: Words, cam: Cam) -> str:
     points = []
     for piece in cam.law:
         height = number_of(scene, words, exact(lift))
-        points.append(f"{quantity_text(scene, words, at)}: {height}")
+        points.append(f"{quantity_text(scene, words, at)}{words('colon')}{height}")
         at, lift = piece.to, lift + piece.rise.number(scene.values)
     return ", ".join(points) + f" ({words.spelled(unit)})"
 
@@ -760,23 +761,17 @@ def fixed_points(scene: Scene, words: Words) -> Iterator[Datum]:
     """The coordinates of the frame's points."""
     for placing in scene.frame.placings:
         if isinstance(placing, At):
-            unit = words.spelled(placing.x.written_unit)
-            place = f"{place_of(scene, words, placing)} {unit}"
-            yield Datum(name=symbol(placing.point), value=place, sign=" ")
+            value = placed(scene, words, placing)
+            yield Datum(name=symbol(placing.point), value=value, sign=" ")
 
 
 def plates(drawing: Drawing) -> Iterator[Datum]:
     """The points of links that are given by coordinates or by an angle."""
     scene, words = drawing.scene, drawing.words
-    for link in (scene.frame, *scene.links.values()):
+    for link in scene.every_link:
         fixed = link is scene.frame
-        places = [placing for placing in link.placings if isinstance(placing, At)]
-        if not fixed and len(places) > 1:
-            points = ", ".join(
-                f"{symbol(placing.point)} {place_of(scene, words, placing)}" for placing in places
-            )
-            on_link = words("page.on_link", k=escape(link.name))
-            yield Datum(f"{points} {words.spelled(places[0].x.written_unit)}, {on_link}")
+        if not fixed:
+            yield from on_link(scene, words, link)
         for placing in link.placings:
             point = symbol(placing.point)
             if isinstance(placing, Polar):
@@ -795,10 +790,33 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
                 )
 
 
-def place_of(scene: Scene, words: Words, placing: At) -> str:
-    """The coordinates of a point."""
+def on_link(scene: Scene, words: Words, link: Link) -> Iterator[Datum]:
+    """The points of a moving link with coordinates in its axes; a single one is its origin.
+
+    A point with coordinates in the axes of several links has the index of the link.
+    """
+    places = coordinates_on(link)
+    if len(places) < 2:
+        return
+    often = Counter(p.point for each in scene.every_link for p in coordinates_on(each))
+    names = [
+        symbol(letter(under(p.point, link.name)) if often[p.point] > 1 else p.point) for p in places
+    ]
+    for name, placing in zip(names, places, strict=True):
+        yield Datum(name=name, value=placed(scene, words, placing), sign=" ")
+    axes = words("page.on_link", k=escape(link.name))
+    yield Datum(f"{words('list_mark').join(names)}{words('colon')}{axes}")
+
+
+def coordinates_on(link: Link) -> list[At]:
+    """The points of a link with coordinates in its axes."""
+    return [placing for placing in link.placings if isinstance(placing, At)]
+
+
+def placed(scene: Scene, words: Words, placing: At) -> str:
+    """The coordinates of a point with their unit."""
     x, y = (number_of(scene, words, q) for q in (placing.x, placing.y))
-    return words.place(x, y)
+    return f"{words.place(x, y)} {words.spelled(placing.x.written_unit)}"
 
 
 def sides(scene: Scene, words: Words) -> Iterator[str]:

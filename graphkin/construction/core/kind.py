@@ -13,7 +13,7 @@ from msgspec.structs import asdict
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.palette import ErrorPicks, KnownError
-from graphkin.construction.core.program import OwnStep, Program, Roles, Step
+from graphkin.construction.core.program import OwnStep, PlanAside, Program, Roles, Step
 from graphkin.construction.core.relation import Relation
 from graphkin.construction.core.vocabulary import Action
 from graphkin.numbers.plane import Ratio
@@ -349,3 +349,67 @@ def together(found: list[Sentence], some: Sequence[Sentence], markup: str) -> li
     place = found.index(some[0])
     kept = [said for said in found if said not in some]
     return [*kept[:place], in_one(some, some[-1].name, markup), *kept[place:]]
+
+
+# --- auxiliary plans, drawn only to find the right plan ------------------------------------------
+
+
+class AuxiliaryPlan(PlanAside):
+    """A plan drawn only to find the right plan."""
+
+    @property
+    def repeats(self) -> bool:
+        """Whether this plan repeats the lines of another plan, without equations of its own."""
+        return False
+
+    def reason(self, name: str) -> str:
+        """The key of the reason for this plan, for its opening sentence; otherwise empty."""
+        return ""
+
+    def turned_by(self, rate: int) -> str:
+        """The link whose rate is assumed at a step; empty where no rate is assumed there."""
+        return ""
+
+    def is_idle(self, drawing: Drawing, number: int) -> bool:
+        """Whether a line only finds points that coincide with the point where it begins."""
+        return False
+
+    def begins(self, drawing: Drawing, named: Sequence[int]) -> bool:
+        """Whether these are the points with which this plan begins."""
+        return False
+
+    def parts_of_sentence(
+        self, drawing: Drawing, named: Sequence[int]
+    ) -> Iterator[tuple[int, int, str]]:
+        """The points of this plan by line: step of the point, last step of the part, sentence."""
+        yield from ()
+
+    def introduced(self, drawing: Drawing, how: str, *, first: bool) -> str:
+        """The sentence ``how`` of a part, after a phrase that names this plan.
+
+        For the ``first`` part the phrase also states what the plan assumes.
+        """
+        return how
+
+    def falls_on(self, drawing: Drawing, number: int) -> str:
+        """The point that coincides with a point of this plan and all its sources; else empty."""
+        return ""
+
+    def sentences(self, drawing: Drawing, number: int) -> Iterator[Sentence]:
+        """The sentences that go with one step of this plan."""
+        yield from ()
+
+    def marks(self, canvas: Canvas, number: int) -> None:
+        """Draw one step of this plan."""
+
+
+def auxiliary_plan(drawing: Drawing, number: int) -> AuxiliaryPlan | None:
+    """The auxiliary plan that alone uses a step; None where there is no such plan."""
+    plan = drawing.auxiliary.get(number)
+    return plan if isinstance(plan, AuxiliaryPlan) else None
+
+
+def falls_on_sources(drawing: Drawing, number: int) -> bool:
+    """Whether a point of an auxiliary plan coincides with all the points that it is drawn from."""
+    plan = auxiliary_plan(drawing, number)
+    return plan is not None and bool(plan.falls_on(drawing, number))

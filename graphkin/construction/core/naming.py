@@ -24,7 +24,7 @@ from graphkin.drawing.scale import digits
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, At, Driver, GuideOrTrack, Link, Scene
 from graphkin.scene.quantity import Quantity, shortest
-from graphkin.text import NOTHING, Words
+from graphkin.text import IMPERIAL, NOTHING, Words
 
 NAUGHT = 1e-6
 """A vector drawn shorter than this, in mm, counts as zero."""
@@ -91,6 +91,15 @@ def length_scale(drawing: Drawing) -> str:
     scale = drawing.scales.kL / 1000
     exact = drawing.scales.metre == 1
     return drawing.words.decimal(digits(scale) if exact else f"{scale:.6g}")
+
+
+def stated_scale(drawing: Drawing) -> str:
+    """kL with its unit: per millimetre of paper, but per inch or foot of paper in these units."""
+    words = drawing.words
+    if words.length in IMPERIAL:
+        unit = words.spelled(f"{words.length}/{words.length}")
+        return f"{words.decimal(digits(drawing.scales.kL * drawing.scales.metre))} {unit}"
+    return f"{length_scale(drawing)} {words.unit('m/mm')}"
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:

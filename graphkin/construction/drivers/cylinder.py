@@ -74,11 +74,11 @@ def turn_to_pins(pen: Pen, cylinder: Cylinder, far: str, way: int) -> None:
     near, (block, carrier) = cylinder.pin.point, cylinder.slide.links
     pins = {cylinder.near: near, cylinder.far: far}
     places = [pen.the("position", pins[link]) for link in (carrier, block)]
-    ends = local_line(pen, cylinder.slide.slide, carrier)
+    _, along = local_line(pen, cylinder.slide.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         turn = pen.draw(axis_stretched, *places, way)
         pen.want("axis", block, turn)
-        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, pen.given("origin"), along))
     with pen.on(Part.POSITION, Plane.MECHANISM):
         line = guide_at(pen, block, (pen.the("position", near), near), turn)
     pen.shared["guide", *cylinder.slide.links] = line
@@ -92,11 +92,11 @@ def way_between_pins(pen: Pen, cylinder: Cylinder, far: str) -> int:
     first = pen.scene.link(block).points[0]
     here = local_place(pen, block, pins[block]), local_place(pen, block, first)
     end = local_place(pen, carrier, pins[carrier])
-    ends = local_line(pen, cylinder.slide.slide, carrier)
+    guide = local_line(pen, cylinder.slide.slide, carrier)
     where = pen.drive(cylinder.driver).position
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         offset = pen.given("length", cylinder.slide.slide.offset)
-        return pen.draw(stretch, *here, offset, end, *ends, where)
+        return pen.draw(stretch, *here, offset, end, *guide, where)
 
 
 def move(images: GroupImages, pen: Pen, group: Stretched) -> None:

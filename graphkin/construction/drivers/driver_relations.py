@@ -16,6 +16,7 @@ from graphkin.construction.core.naming import (
     length_scale,
     sense,
     speed_symbol,
+    stated_scale,
 )
 from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import RATES, number_of, unit_words
@@ -33,6 +34,7 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.scene.model import FRAME, Angled, Driver
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
+from graphkin.text import IMPERIAL
 
 OMEGA = 6
 """Significant digits of the driver's angular velocity, on which all later numbers depend."""
@@ -164,7 +166,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(
         drawing.in_signs("*k*_L"),
         "",
-        "",
+        stated_scale(drawing) if words.length in IMPERIAL else "",
         number,
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),

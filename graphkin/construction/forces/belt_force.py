@@ -15,7 +15,7 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import Slip
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
-from graphkin.construction.core.relation import Relation, answer, figure, put_in
+from graphkin.construction.core.relation import Relation, answer, put_in
 from graphkin.construction.core.vocabulary import action
 from graphkin.construction.forces.loads import STRANDS, force_amount, newtons, sub
 from graphkin.construction.forces.moments import (
@@ -193,9 +193,7 @@ class BeltStrand(ForceByMoments, frozen=True, kw_only=True):
 
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The radius of the wheel."""
-        edge, about = (drawing.trace.values[n] for n in (self.edge, self.moments.about))
-        radius = figure(drawing, drawing.on_paper(abs(edge - about)))
-        return [(of_wheel("r", self.sign), radius)]
+        return [(of_wheel("r", self.sign), self.reach(drawing, self.edge))]
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
         """The difference of both tensions from the moments, then each tension."""
@@ -270,10 +268,8 @@ def belt_strands(
         with pen.on(Part.FORCE, Plane.MECHANISM):
             edge = pen.draw(strand_edge, *centres, *radii, extra=(belt.sense, side))
             end = pen.draw(strand_end, *centres, *radii, edge, extra=(belt.sense,))
-        inputs = moments.about, edge, number, *moments.steps
-        with pen.on(Part.FORCE, Plane.NUMBERS):
-            fixed = *moments.extra, float(side), float(RULES.index(key))
-            force = pen.draw(strand_force, *inputs, extra=fixed)
+        fixed = float(side), float(RULES.index(key))
+        force = moments.balanced(pen, strand_force, edge, number, extra=fixed)
         found = BeltStrand(
             name=names[strand],
             link=link,

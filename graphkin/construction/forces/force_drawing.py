@@ -86,6 +86,13 @@ class ForceExtents(NamedTuple):
         own = {number: around(points) for number, points in polygons.items()}
         return cls(own, box if moves else None)
 
+    def in_units(self, newton: float) -> ForceExtents:
+        """The same with the polygons in a unit of so many newtons."""
+        return ForceExtents(
+            {n: Extent(*(s / newton for s in box.sides)) for n, box in self.polygons.items()},
+            self.lever,
+        )
+
 
 def own_points(value: Any) -> tuple[Any, ...]:
     """A value that is a point, or one of each variant; none for lines and arrows.
@@ -207,7 +214,7 @@ def force_tables(drawing: Drawing, *, empty: bool) -> list[CellTable]:
             length = drawn_force(drawing, size)
             cells = (in_mm(words, length), value_of(words, size, length))
         rows.append(Row((symbol(name), *cells), name))
-    heads = words("table.symbol"), words("table.millimetres"), words.spelled("N")
+    heads = words("table.symbol"), words("table.millimetres"), words.unit("N")
     found = [CellTable(heads, rows, kind="sides")]
     if balance := balance_rows(drawing, empty=empty):
         over = words("table.balance"), words("table.by_polygon"), words("table.by_lever")
@@ -310,6 +317,6 @@ def balance_rows(drawing: ForceDrawing, *, empty: bool) -> list[Row]:
         found = (f"{each.value} {each.sense}".strip(), *([each.by_lever] if has_lever else []))
         cells = ("",) * len(found) if empty else found
         rows.append(
-            Row((f"{symbol(each.name)}, {drawing.words.spelled(each.unit)}", *cells), each.name)
+            Row((f"{symbol(each.name)}, {drawing.words.unit(each.unit)}", *cells), each.name)
         )
     return rows

@@ -48,6 +48,7 @@ from graphkin.construction.forces.moments import (
 from graphkin.construction.forces.polygon import (
     PART,
     REACTION,
+    ClosingSide,
     Polygon,
     SideDirection,
     normal_to_guide,
@@ -122,11 +123,24 @@ def is_drawn(scene: Scene, group: Group) -> bool:
 
 
 class Arm(NamedTuple):
-    """An arm of the coupler of a group of class III: its link, its outer pair and its inner pin."""
+    """A link, or a cylinder of two, from an outer pair to an inner pin: of a dyad, or of a coupler.
 
-    link: str
-    outer: Pin | Sliding
+    The reaction in the outer pair acts on link ``near``, that in the inner pin on link ``far``.
+    """
+
+    near: str
+    far: str
+    outer: Joint
     inner: Pin
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys((self.near, self.far)))
+
+    @property
+    def words(self) -> str:
+        """Its links in a sentence about one link."""
+        return " + ".join(self.links)
 
 
 def coupled(scene: Scene, group: Higher) -> tuple[str, tuple[Arm, Arm, Arm]] | None:
@@ -146,7 +160,7 @@ def coupled(scene: Scene, group: Higher) -> tuple[str, tuple[Arm, Arm, Arm]] | N
         outer = [e for e in joints if link in e.links and e not in inside]
         if len(outer) != 1 or not is_plain(scene, outer[0]):
             return None
-        arms.append(Arm(link, outer[0], pair))
+        arms.append(Arm(link, link, outer[0], pair))
     return coupler, (arms[0], arms[1], arms[2])
 
 
@@ -165,26 +179,6 @@ def force_program(scene: Scene, motion: Program, groups: Sequence[Group]) -> Pro
     plan = ForcePlan(pen)
     plan.write(groups)
     return replace(pen.program(), reactions=tuple(plan.reactions), balances=tuple(plan.balances))
-
-
-class DyadSide(NamedTuple):
-    """One side of a dyad: a link, or a cylinder of two, between an outer pair and the inner pin.
-
-    The reaction in the outer pair acts on link ``near``, that in the inner pin on link ``far``.
-    """
-
-    near: str
-    far: str
-    outer: Joint
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys((self.near, self.far)))
-
-    @property
-    def words(self) -> str:
-        """Its links in a sentence about one link."""
-        return " + ".join(self.links)
 
 
 class CamPair(NamedTuple):
@@ -236,8 +230,8 @@ class ForcePlan:
         for group in reversed(groups):
             self.links = group.links
             match group:
-                case Dyad(inner=Pin()):
-                    self.by_inner_pin(group.type, group.inner, *self.sides_of(group))
+                case Dyad(inner=Pin() as inner):
+                    self.by_inner_pin(group.type, *self.arms_of(group, inner))
                 case Dyad():
                     self.by_inner_slide(group)
                 case CamFollower():
@@ -279,6 +273,10 @@ class ForcePlan:
         """The step of a guide."""
         assert isinstance(pair, Sliding)
         return self.pen.the("guide", pair.block)
+
+    def way_across(self, pair: Sliding) -> SideDirection:
+        """The direction normal to a guide."""
+        return SideDirection(guide=self.guide(pair), block=pair.block)
 
     @property
     def on_group(self) -> Iterator[LinkForce]:
@@ -334,64 +332,74 @@ class ForcePlan:
         acting = [each for link in links for each in self.acting[link]]
         return moments_about(self.pen, self.pen.the("position", point), point, acting, self.arms)
 
+    # --- arms ------------------------------------------------------------------------------------
+
+    def across(self, arm: Arm, moments: Moments) -> int | None:
+        """The part of an outer reaction across the arm; None where there is none."""
+        if not isinstance(arm.outer, Pin) or not moments.terms:
+            return None
+        name, ends = self.name(arm.outer, arm.near, "t"), (arm.outer.place, arm.inner.place)
+        return tangential(self.pen, name, arm.words, ends, moments)
+
+    def lay_across(self, polygon: Polygon, arm: Arm, across: int | None) -> int:
+        """Lay off the part of an outer reaction across its arm, if there is one; its end."""
+        if across is None:
+            return polygon.last
+        return polygon.lay(self.name(arm.outer, arm.near, "t"), PART, across)
+
+    def along(self, arm: Arm, across: int | None) -> ClosingSide:
+        """The part of an outer reaction along its arm; all of it where none is across."""
+        part, look = ("", REACTION) if across is None else ("n", PART)
+        return ClosingSide(self.name(arm.outer, arm.near, part), self.way(arm), look, arm.words)
+
+    def way(self, arm: Arm) -> SideDirection:
+        """The direction of the side along an arm."""
+        pair = arm.outer
+        if isinstance(pair, Pin):
+            return SideDirection((pair.place, arm.inner.place))
+        assert isinstance(pair, Sliding)
+        return SideDirection(guide=self.guide(pair), block=pair.block)
+
+    def whole(self, polygon: Polygon, arm: Arm, across: int | None, ends: tuple[int, int]) -> int:
+        """The outer reaction of an arm, the sum of its parts if it has two."""
+        name = self.name(arm.outer, arm.near)
+        parts = () if across is None else (f"{name}^n", f"{name}^t")
+        return polygon.reaction(name, *ends, whole=parts, drawn=bool(parts))
+
     # --- dyads -----------------------------------------------------------------------------------
 
-    def sides_of(self, group: Dyad) -> tuple[DyadSide, DyadSide]:
-        """The sides of a dyad; a side with a pin comes first."""
-        one, other = (DyadSide(link, link, outer_of(group, link)) for link in group.links)
+    def arms_of(self, group: Dyad, inner: Pin) -> tuple[Arm, Arm]:
+        """The arms of a dyad; one with an outer pin comes first."""
+        one, other = (Arm(link, link, outer_of(group, link), inner) for link in group.links)
         swapped = isinstance(one.outer, Sliding) and not isinstance(other.outer, Sliding)
         return (other, one) if swapped else (one, other)
 
-    def by_inner_pin(
-        self, kind: str, inner: Joint, one: DyadSide, other: DyadSide
-    ) -> tuple[int, int]:
+    def by_inner_pin(self, kind: str, one: Arm, other: Arm) -> tuple[int, int]:
         """RRR, RRP, PRP: parts across bars, the polygon of both links, places on guides.
 
-        Gives the forces of both sides in the inner pin, each on its own side.
+        Gives the forces of both arms in the inner pin, each on its own arm.
         """
-        pen = self.pen
-        assert isinstance(inner, Pin)
-        moments = {side: self.about(inner.place, *side.links) for side in (one, other)}
-        across = {side: self.across(side, inner, moments[side]) for side in (one, other)}
+        inner = one.inner
+        moments = {arm: self.about(inner.place, *arm.links) for arm in (one, other)}
+        across = {arm: self.across(arm, moments[arm]) for arm in (one, other)}
         polygon = self.new_polygon((*one.links, *other.links), kind)
-        first = polygon.start
-        name, far = (self.name(side.outer, side.near) for side in (one, other))
-        if (step := across[one]) is not None:
-            first = polygon.lay(f"{name}^t", PART, step)
+        first = self.lay_across(polygon, one, across[one])
         for link in one.links:
             polygon.lay_all(self.acting[link])
         middle = polygon.last
         for link in other.links:
             polygon.lay_all(self.acting[link])
         second = polygon.last
-        if (step := across[other]) is not None:
-            polygon.lay(f"{far}^t", PART, step)
-        parts = [across[side] is not None for side in (one, other)]
-        closed = polygon.close(
-            (f"{name}^n" if parts[0] else name, f"{far}^n" if parts[1] else far),
-            (self.way(one.outer, inner), self.way(other.outer, inner)),
-            (PART if parts[0] else REACTION, PART if parts[1] else REACTION),
-            (one.words, other.words),
-        )
-        corner = closed.corner
-        forces = {}
-        for side, tail, tip in ((one, corner, first), (other, second, corner)):
-            whole = self.name(side.outer, side.near)
-            names = () if across[side] is None else (f"{whole}^n", f"{whole}^t")
-            forces[side] = polygon.reaction(whole, tail, tip, whole=names, drawn=bool(names))
+        self.lay_across(polygon, other, across[other])
+        corner = polygon.close(*(self.along(arm, across[arm]) for arm in (one, other))).corner
+        ends = {one: (corner, first), other: (second, corner)}
+        forces = {arm: self.whole(polygon, arm, across[arm], ends[arm]) for arm in (one, other)}
         met = Pin(inner.point, (one.far, other.far))
         between = polygon.reaction(self.name(met, one.far), middle, corner, first=one.far)
-        self.enter(met, one.far, between, pen.the("position", inner.place))
-        for side in (one, other):
-            self.settle(side.outer, side.near, forces[side], moments[side])
+        self.enter(met, one.far, between, self.pen.the("position", inner.place))
+        for arm in (one, other):
+            self.settle(arm.outer, arm.near, forces[arm], moments[arm])
         return between, self.back(between)
-
-    def across(self, side: DyadSide, inner: Pin, moments: Moments) -> int | None:
-        """The part of an outer reaction across the bar; None where there is none."""
-        if not isinstance(side.outer, Pin) or not moments.terms:
-            return None
-        name, ends = self.name(side.outer, side.near, "t"), (side.outer.place, inner.place)
-        return tangential(self.pen, name, side.words, ends, moments)
 
     def settle(self, pair: Joint, link: str, force: int, moments: Moments) -> None:
         """Enter an outer reaction at its pin, or at its place on a guide by moments."""
@@ -418,13 +426,6 @@ class ForcePlan:
     def at_pin(self, pair: Pin, link: str, force: int) -> None:
         """Enter the reaction in a pin."""
         self.give(pair, link, force, self.pen.the("position", pair.place), pair.place)
-
-    def way(self, pair: Joint, inner: Pin) -> SideDirection:
-        """The direction of a closing side."""
-        if isinstance(pair, Pin):
-            return SideDirection((pair.place, inner.place))
-        assert isinstance(pair, Sliding)
-        return SideDirection(guide=self.guide(pair), block=pair.block)
 
     def by_inner_slide(self, group: Dyad) -> None:
         """RPR, RPP: the force normal to the inner guide, then the polygon of each link."""
@@ -493,17 +494,14 @@ class ForcePlan:
         pen, (one, pair), (other, outer) = self.pen, near, far
         polygon = self.new_polygon((other,), group.type)
         last = polygon.lay_all(self.acting[other])
-        names = self.name(inner, other), self.name(outer, other)
-        guides = self.guide(inner), self.guide(outer)
-        ways = (
-            SideDirection(guide=guides[0], block=inner.block),
-            SideDirection(guide=guides[1], block=outer.block),
-        )
-        closed = polygon.close(names, ways, (REACTION, REACTION))
-        pushed = polygon.reaction(names[0], closed.corner, polygon.start, drawn=False)
-        outward = polygon.reaction(names[1], last, closed.corner, drawn=False)
+        sides = [
+            ClosingSide(self.name(each, other), self.way_across(each)) for each in (inner, outer)
+        ]
+        corner = polygon.close(*sides).corner
+        pushed = polygon.reaction(sides[0].name, corner, polygon.start, drawn=False)
+        outward = polygon.reaction(sides[1].name, last, corner, drawn=False)
         back, moments = self.back(pushed), self.about(pair.place, one)
-        name, guide = self.name(inner, one), guides[0]
+        name, guide = self.name(inner, one), self.guide(inner)
         place, couple = on_guide(pen, name, one, guide, back, moments, self.on_group)
         self.pressed(inner, one, back, place, couple)
         self.turn(inner, one, couple, both=True)
@@ -515,27 +513,18 @@ class ForcePlan:
 
     def stretched(self, group: Stretched) -> list[tuple[Cylinder, int]]:
         """A dyad with cylinders, each as one bar; then the force of the driver in each cylinder."""
-        dyad, cylinders = group.dyad, {each.far: each for each in group.cylinders}
-        sides = []
-        for link in dyad.links:
-            cylinder = cylinders.get(link)
-            sides.append(
-                DyadSide(link, link, outer_of(dyad, link))
-                if cylinder is None
-                else DyadSide(cylinder.near, link, cylinder.pin)
-            )
-        one, other = sides
-        between = self.by_inner_pin(dyad.type, dyad.inner, one, other)
-        found = []
-        for side, force in zip(sides, between, strict=True):
-            if (cylinder := cylinders.get(side.far)) is not None:
-                found.append((cylinder, self.pushing(cylinder, dyad.inner, force)))
-        return found
+        dyad, inner, cylinders = group.dyad, group.dyad.inner, group.cylinders
+        assert isinstance(inner, Pin)
+        held = {each.far: (each.near, each.pin) for each in cylinders}
+        near = {link: held.get(link, (link, outer_of(dyad, link))) for link in dyad.links}
+        one, other = (Arm(near[link][0], link, near[link][1], inner) for link in dyad.links)
+        forces = dict(zip(dyad.links, self.by_inner_pin(dyad.type, one, other), strict=True))
+        order = sorted(cylinders, key=lambda each: dyad.links.index(each.far))
+        return [(each, self.pushing(each, inner, forces[each.far])) for each in order]
 
-    def pushing(self, cylinder: Cylinder, inner: Joint, between: int) -> int:
+    def pushing(self, cylinder: Cylinder, inner: Pin, between: int) -> int:
         """The driver's force along a cylinder and the normal one, from the polygon of the rod."""
         pen, pair, rod = self.pen, cylinder.slide, cylinder.far
-        assert isinstance(inner, Pin)
         met = Pin(inner.point, (rod, self.partner(inner, rod)))
         pin = LinkForce(
             self.name(met, rod), REACTION, between, pen.the("position", inner.place), at=inner.place
@@ -555,22 +544,17 @@ class ForcePlan:
         """
         pen = self.pen
         assert isinstance(pair, Sliding)
-        guide, point = self.guide(pair), pen.scene.link(pair.block).points[0]
+        point = pen.scene.link(pair.block).points[0]
         moments = self.about(point, link)
         polygon = self.new_polygon((link,), kind)
         last = polygon.lay_all(self.acting[link])
-        ways = (
-            SideDirection(guide=guide, block=pair.block, along=True),
-            SideDirection(guide=guide, block=pair.block),
-        )
-        names = "F_" + sub("b", link), self.name(pair, link)
-        closed = polygon.close(names, ways, ("balance", REACTION))
-        push = polygon.reaction(
-            names[0], closed.corner, polygon.start, drawn=False, quantity=BALANCING_FORCE.target
-        )
-        force = polygon.reaction(names[1], last, closed.corner, drawn=False)
-        where = pen.the("position", point)
-        applied(pen, LinkForce(names[0], "balance", push, where, at=point))
+        across = ClosingSide(self.name(pair, link), self.way_across(pair))
+        along = ClosingSide("F_" + sub("b", link), across.way._replace(along=True), "balance")
+        corner = polygon.close(along, across).corner
+        quantity = BALANCING_FORCE.target
+        push = polygon.reaction(along.name, corner, polygon.start, drawn=False, quantity=quantity)
+        force = polygon.reaction(across.name, last, corner, drawn=False)
+        applied(pen, LinkForce(along.name, "balance", push, pen.the("position", point), at=point))
         return push, force, moments
 
     # --- cams ------------------------------------------------------------------------------------
@@ -586,10 +570,9 @@ class ForcePlan:
             place, way = pen.the("position", cam.point), SideDirection((cam.centre, cam.point))
         else:
             assert isinstance(dyad.inner, Sliding)
-            guide = self.guide(dyad.inner)
-            way = SideDirection(guide=guide, block=dyad.inner.block)
+            way = self.way_across(dyad.inner)
             with pen.on(Part.FORCE, Plane.MECHANISM):
-                place = pen.draw(foot_on_line, centre, guide)
+                place = pen.draw(foot_on_line, centre, self.guide(dyad.inner))
         name, outer = self.name(pair, link), outer_of(dyad, link)
         if isinstance(outer, Pin):
             with pen.on(Part.FORCE, Plane.MECHANISM):
@@ -608,12 +591,11 @@ class ForcePlan:
             return
         polygon = self.new_polygon((link,), "")
         last = polygon.lay_all(self.acting[link])
-        names = name, self.name(outer, link)
         assert isinstance(outer, Sliding)
-        across = SideDirection(guide=self.guide(outer), block=outer.block)
-        closed = polygon.close(names, (way, across), (REACTION, REACTION), cam=True)
-        force = polygon.reaction(name, closed.corner, polygon.start, drawn=False)
-        held = polygon.reaction(names[1], last, closed.corner, drawn=False)
+        across = ClosingSide(self.name(outer, link), self.way_across(outer))
+        corner = polygon.close(ClosingSide(name, way), across, cam=True).corner
+        force = polygon.reaction(name, corner, polygon.start, drawn=False)
+        held = polygon.reaction(across.name, last, corner, drawn=False)
         self.pressed(pair, link, force, place)
         point = pen.scene.link(outer.block).points[0]
         self.settle(outer, link, held, self.about(point, link))
@@ -732,81 +714,51 @@ class ForcePlan:
         found = coupled(pen.scene, group)
         assert found is not None
         coupler, arms = found
-        moments = {arm: self.about(arm.inner.place, arm.link) for arm in arms}
+        moments = {arm: self.about(arm.inner.place, arm.near) for arm in arms}
         lines = {arm: self.line_of(arm) for arm in arms}
         one, other, third = (arms[k] for k in in_order(pen, [lines[arm] for arm in arms]))
-        across = {
-            arm: self.across(DyadSide(arm.link, arm.link, arm.outer), arm.inner, moments[arm])
-            for arm in arms
-        }
+        across = {arm: self.across(arm, moments[arm]) for arm in arms}
         first, second = (pen.the("position", arm.inner.place) for arm in (one, other))
         special = meeting(pen, lines[one], lines[other], (first, second))
-        acting = [each for link in (coupler, *(a.link for a in arms)) for each in self.acting[link]]
+        acting = [each for link in (coupler, *(a.near for a in arms)) for each in self.acting[link]]
         for arm in arms:
             if (step := across[arm]) is not None:
                 assert isinstance(arm.outer, Pin)
                 place = pen.the("position", arm.outer.place)
-                acting.append(LinkForce(self.name(arm.outer, arm.link, "t"), PART, step, place))
+                acting.append(LinkForce(self.name(arm.outer, arm.near, "t"), PART, step, place))
             elif isinstance(arm.outer, Sliding) and moments[arm].terms:
-                with pen.on(Part.FORCE, Plane.NUMBERS):
-                    own = moments[arm]
-                    couple = pen.draw(balancing_moment, own.about, *own.steps, extra=own.extra)
-                index = link_pair(self.partner(arm.outer, arm.link), arm.link)
+                couple = moments[arm].balanced(pen, balancing_moment)
+                index = link_pair(self.partner(arm.outer, arm.near), arm.near)
                 acting.append(LinkForce(f"M_{index}", REACTION, couple=couple))
         letter = pen.steps[special].name
         every = moments_about(pen, special, letter, acting, self.arms)
-        names = {
-            arm: self.name(arm.outer, arm.link, "n" if across[arm] is not None else "")
-            for arm in arms
-        }
-        looks = {arm: PART if across[arm] is not None else REACTION for arm in arms}
-        through = pen.the("position", third.inner.place)
-        links = tuple(sorted(group.links, key=natural))
-        along = along_line(
-            pen,
-            names[third],
-            next(self.arms),
-            links,
-            lines[third],
-            through,
-            every,
-            self.way(third.outer, third.inner),
-        )
+        sides = {arm: self.along(arm, across[arm]) for arm in arms}
+        through, way = pen.the("position", third.inner.place), sides[third].way
+        links, name = tuple(sorted(group.links, key=natural)), sides[third].name
+        along = along_line(pen, name, next(self.arms), links, lines[third], through, every, way)
         polygon = self.new_polygon(links, "III")
-        first = polygon.start
-        if (step := across[one]) is not None:
-            first = polygon.lay(self.name(one.outer, one.link, "t"), PART, step)
-        for link in (one.link, coupler, third.link):
+        first = self.lay_across(polygon, one, across[one])
+        for link in (one.near, coupler, third.near):
             polygon.lay_all(self.acting[link])
         before = polygon.last
-        if (step := across[third]) is not None:
-            polygon.lay(self.name(third.outer, third.link, "t"), PART, step)
-        after = polygon.lay(names[third], looks[third], along)
-        second = polygon.lay_all(self.acting[other.link])
-        if (step := across[other]) is not None:
-            polygon.lay(self.name(other.outer, other.link, "t"), PART, step)
-        closed = polygon.close(
-            (names[one], names[other]),
-            (self.way(one.outer, one.inner), self.way(other.outer, other.inner)),
-            (looks[one], looks[other]),
-            (one.link, other.link),
-        )
-        corner = closed.corner
+        self.lay_across(polygon, third, across[third])
+        after = polygon.lay(name, sides[third].look, along)
+        second = polygon.lay_all(self.acting[other.near])
+        self.lay_across(polygon, other, across[other])
+        corner = polygon.close(sides[one], sides[other]).corner
         ends = {one: (corner, first), other: (second, corner), third: (before, after)}
         for arm in (one, other, third):
-            whole = self.name(arm.outer, arm.link)
-            parts = () if across[arm] is None else (f"{whole}^n", f"{whole}^t")
-            force = polygon.reaction(whole, *ends[arm], whole=parts, drawn=bool(parts))
-            self.settle(arm.outer, arm.link, force, moments[arm])
-            self.held_at(arm, whole, force)
+            force = self.whole(polygon, arm, across[arm], ends[arm])
+            self.settle(arm.outer, arm.near, force, moments[arm])
+            self.held_at(arm, force)
 
-    def held_at(self, arm: Arm, name: str, force: int) -> None:
+    def held_at(self, arm: Arm, force: int) -> None:
         """The polygon of an arm, which the reaction in its inner pin closes."""
-        polygon = self.new_polygon((arm.link,), "")
-        polygon.lay_all(self.acting[arm.link])
-        last = polygon.lay(name, REACTION, force)
-        inner = polygon.reaction(self.name(arm.inner, arm.link), last, polygon.start, closes=True)
-        self.enter(arm.inner, arm.link, inner, self.pen.the("position", arm.inner.place))
+        polygon, link = self.new_polygon((arm.near,), ""), arm.near
+        polygon.lay_all(self.acting[link])
+        last = polygon.lay(self.name(arm.outer, link), REACTION, force)
+        inner = polygon.reaction(self.name(arm.inner, link), last, polygon.start, closes=True)
+        self.enter(arm.inner, link, inner, self.pen.the("position", arm.inner.place))
 
     def line_of(self, arm: Arm) -> int:
         """The line of the force in an arm: along the bar, or normal to the guide of a block."""
@@ -874,15 +826,9 @@ class ForcePlan:
             across = tangential(pen, parts[1], link, ends, moments, pitch)
             first = polygon.lay(parts[1], PART, across)
         last = polygon.lay_all(self.acting[link])
-        ways = (
-            SideDirection(guide=track, block=link),
-            SideDirection(guide=track, block=link, along=True),
-        )
-        names, looks = (
-            (parts[0] if parts else whole, push),
-            (PART if parts else REACTION, "balance"),
-        )
-        corner = polygon.close(names, ways, looks).corner
+        way = SideDirection(guide=track, block=link)
+        held = ClosingSide(parts[0], way, PART) if parts else ClosingSide(whole, way)
+        corner = polygon.close(held, ClosingSide(push, way._replace(along=True), "balance")).corner
         force = polygon.reaction(whole, corner, first, whole=parts, drawn=bool(parts))
         quantity = BALANCING_FORCE.target
         given = polygon.reaction(push, last, corner, drawn=False, quantity=quantity)
@@ -900,12 +846,11 @@ class ForcePlan:
         if not (tip or by_rate) or group.driver.speed.is_zero():
             return
         plan = LeverPlan(pen)
-        forces, couples = [], []
         masses = pen.scene.forces.masses if pen.scene.forces is not None else {}
         for link, some in self.loads.items():
             for each in some:
                 if each.couple is not None:
-                    couples.append(plan.couple(link, each))
+                    plan.couple(link, each)
                     continue
                 assert each.place is not None
                 if each.at:
@@ -913,14 +858,14 @@ class ForcePlan:
                 else:
                     turned = plan.moved(link, each.name, masses[link].centre, each.place)
                 if turned != plan.pole:
-                    forces.append(plan.put(each, turned, next(numbers)))
+                    plan.put(each, turned, next(numbers))
         link = group.far if isinstance(group, Cylinder) else group.link
         if tip is None:
-            plan.by_rate("M_" + sub("b", link), link, forces, couples, other)
+            plan.by_rate("M_" + sub("b", link), link, other)
             return
         ends = (group.pivot, tip) if isinstance(group, Crank) else (tip, tip)
         names = "F_b" if turns else "F_" + sub("b", link), "M_" + sub("b", link)
-        plan.balance(names, ends, forces, couples, other, turns=turns)
+        plan.balance(names, ends, other, turns=turns)
 
     def driven_point(self, group: Crank | Driven | Cylinder) -> str | None:
         """The point whose velocity against the frame is that of the driver; None without one."""

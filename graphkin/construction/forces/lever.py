@@ -6,7 +6,7 @@ enters, so the lever gives the balance of the driver without any polygon (N. E. 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from itertools import chain
 from typing import Any, ClassVar
 
@@ -350,6 +350,8 @@ class LeverPlan:
             self.pole = pen.draw(lever_pole, name="o")
         pen.make(LeverPole(pole=self.pole))
         self.images: dict[int, int] = {}
+        self.forces: list[tuple[str, str, int, int]] = []
+        self.couples: list[tuple[str, str, int]] = []
 
     def image(self, point: str) -> int:
         """The turned image of a point; the pole itself for a point at rest."""
@@ -372,8 +374,8 @@ class LeverPlan:
             turned = pen.draw(lever_moved, near, omega, centre, place)
         return pen.make(LeverMoved(name=name, near=near, turned=turned)).turned
 
-    def put(self, acting: LinkForce, turned: int, number: str) -> tuple[str, str, int, int]:
-        """Put a force at an image, with its arm; its term in the sum of moments."""
+    def put(self, acting: LinkForce, turned: int, number: str) -> None:
+        """Put a force at an image, with its arm."""
         assert acting.force is not None
         with self.pen.on(Part.FORCE, Plane.LEVER):
             foot = self.pen.draw(arm, self.pole, turned, acting.force)
@@ -388,36 +390,34 @@ class LeverPlan:
                 foot=foot,
             )
         )
-        return acting.name, number, foot, acting.force
+        self.forces.append((acting.name, number, foot, acting.force))
 
-    def couple(self, link: str, acting: LinkForce) -> tuple[str, str, int]:
-        """A couple on a link: its term in the sum of moments."""
+    def couple(self, link: str, acting: LinkForce) -> None:
+        """Add a couple on a link."""
         pen = self.pen
         assert acting.couple is not None
         omega = omega_of(pen, link)
         with pen.on(Part.FORCE, Plane.NUMBERS):
             found = pen.draw(lever_couple, acting.couple, omega)
-        return acting.name, f"ω_{link}", found
+        self.couples.append((acting.name, f"ω_{link}", found))
 
-    def by_rate(
-        self,
-        name: str,
-        link: str,
-        forces: Sequence[tuple[str, str, int, int]],
-        couples: Sequence[tuple[str, str, int]],
-        other: int,
-    ) -> None:
+    @property
+    def loads(self) -> list[int]:
+        """The inputs of the sum of moments: feet and forces, then couples."""
+        steps = [n for _, _, foot, force in self.forces for n in (foot, force)]
+        return [*steps, *(step for _, _, step in self.couples)]
+
+    def by_rate(self, name: str, link: str, other: int) -> None:
         """The moment of a crank with no point but its pivot, from the loads' power and its rate."""
         pen, omega = self.pen, omega_of(self.pen, link)
-        loads, extra = inputs_of(forces, couples)
         with pen.on(Part.FORCE, Plane.NUMBERS):
-            moment = pen.draw(lever_rate, omega, *loads, extra=extra)
+            moment = pen.draw(lever_rate, omega, *self.loads, extra=(float(len(self.forces)),))
         pen.make(
             LeverBalance(
                 name=name,
                 moment_name=name,
-                forces=tuple(forces),
-                couples=tuple(couples),
+                forces=tuple(self.forces),
+                couples=tuple(self.couples),
                 other=other,
                 moment=moment,
                 omega=omega,
@@ -426,22 +426,14 @@ class LeverPlan:
         )
 
     def balance(
-        self,
-        names: tuple[str, str],
-        ends: tuple[str, str],
-        forces: Sequence[tuple[str, str, int, int]],
-        couples: Sequence[tuple[str, str, int]],
-        other: int,
-        *,
-        turns: bool,
+        self, names: tuple[str, str], ends: tuple[str, str], other: int, *, turns: bool
     ) -> None:
         """The balance at the image of the second of two points, ``other`` being the polygons'."""
         pen = self.pen
         start, end = (pen.the("position", e) for e in ends) if turns else (None, None)
         turned = self.image(ends[1])
-        loads, extra = inputs_of(forces, couples)
         with pen.on(Part.FORCE, Plane.LEVER):
-            force = pen.draw(lever_balance, turned, *loads, extra=extra)
+            force = pen.draw(lever_balance, turned, *self.loads, extra=(float(len(self.forces)),))
         moment = None
         if start is not None and end is not None:
             with pen.on(Part.FORCE, Plane.NUMBERS):
@@ -454,18 +446,10 @@ class LeverPlan:
                 turned=turned,
                 start=start,
                 end=end,
-                forces=tuple(forces),
-                couples=tuple(couples),
+                forces=tuple(self.forces),
+                couples=tuple(self.couples),
                 other=other,
                 force=force,
                 moment=moment,
             )
         )
-
-
-def inputs_of(
-    forces: Sequence[tuple[str, str, int, int]], couples: Sequence[tuple[str, str, int]]
-) -> tuple[list[int], tuple[float]]:
-    """The inputs of a sum of moments on the lever: feet and forces, then couples; their count."""
-    steps = [n for _, _, foot, force in forces for n in (foot, force)]
-    return [*steps, *(step for _, _, step in couples)], (float(len(forces)),)

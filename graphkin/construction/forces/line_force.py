@@ -18,15 +18,14 @@ from graphkin.construction.core.kind import Construction
 from graphkin.construction.core.naming import way_of
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
-from graphkin.construction.core.relation import figure
 from graphkin.construction.core.vocabulary import action, meet
 from graphkin.construction.forces.moments import (
     SEEN,
     ForceByMoments,
     Moments,
     arm,
-    line_arm,
     moment_sum,
+    right_angle,
 )
 from graphkin.construction.forces.polygon import SideDirection, links_words
 from graphkin.drawing.symbol_markup import escape, symbol
@@ -50,31 +49,44 @@ def line_force(about: Point, foot: Point, line: Line, *rest: Any) -> Point:
     return -moment_sum(about, rest) / cross(foot - about, unit) * unit
 
 
-class LineForce(ForceByMoments, frozen=True, kw_only=True):
-    """The force ``name`` on some ``links`` along a line, with its arm and the arm's symbol.
+class ForceOnLine(ForceByMoments, frozen=True, kw_only=True):
+    """A force along a known line through a point, with its arm called ``number``.
 
-    ``way`` is the line in words; ``through`` is a point on it at which the force acts. ``cam`` says
-    that the line is the common normal of a cam and its follower.
+    ``through`` is the step of the point, ``foot`` is the end of the arm on the line.
     """
 
-    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_line"}
-    none: ClassVar[str] = "step.force-line-none"
-
     number: str
-    links: tuple[str, ...]
-    way: SideDirection
-    cam: bool
     through: int
     foot: OwnStep
 
     def marks(self, canvas: Canvas, role: str) -> None:
         """Draw the line as far as the foot, and the arm with its dimension."""
-        if role != "foot":
+        about, through, foot = map(canvas.value, (self.moments.about, self.through, self.foot))
+        if role != "foot" or canvas.size(foot - about) <= SEEN or not canvas.holds(about):
             return
-        about, through, end = map(canvas.value, (self.moments.about, self.through, self.foot))
-        if canvas.size(end - about) <= SEEN or not canvas.holds(about):
-            return
-        line_arm(canvas, (self.name, self.number), about, through, end)
+        canvas.leg(self.name, "ray", through, foot)
+        canvas.dimension(self.number, about, foot)
+        along = foot - through
+        way = along if canvas.size(along) > SEEN else 1j * (about - foot)
+        right_angle(canvas, foot, about, way)
+
+    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
+        """The distance of the line."""
+        return [(symbol(self.number), self.reach(drawing, self.foot))]
+
+
+class LineForce(ForceOnLine, frozen=True, kw_only=True):
+    """The force ``name`` on some ``links`` along a line, whose direction is the ``way``.
+
+    ``cam`` says that the line is the common normal of a cam and its follower.
+    """
+
+    reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_line"}
+    none: ClassVar[str] = "step.force-line-none"
+
+    links: tuple[str, ...]
+    way: SideDirection
+    cam: bool
 
     def sentence_key(self, drawing: Drawing) -> str:
         return "step.force-normal" if self.cam else "step.force-line"
@@ -83,11 +95,6 @@ class LineForce(ForceByMoments, frozen=True, kw_only=True):
         """The links, the line and the arm."""
         links, way = links_words(drawing, self.links), self.way.words(drawing)
         return {**super().fields(drawing), "k": links, "way": way, "h": symbol(self.number)}
-
-    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
-        """The distance of the line."""
-        foot, about = (drawing.trace.values[n] for n in (self.foot, self.moments.about))
-        return [(symbol(self.number), figure(drawing, drawing.on_paper(abs(foot - about))))]
 
 
 class AssurPoint(Construction, frozen=True, kw_only=True):
@@ -140,9 +147,7 @@ def along_line(
     """The force along the step of a line that balances moments; its step."""
     with pen.on(Part.FORCE, Plane.MECHANISM):
         end = pen.draw(foot_on_line, moments.about, line)
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        inputs = moments.about, end, line
-        force = pen.draw(line_force, *inputs, *moments.steps, extra=moments.extra)
+    force = moments.balanced(pen, line_force, end, line)
     found = LineForce(
         name=name,
         number=number,
@@ -181,29 +186,19 @@ def slide_pressure(far: Point, foot: Point, guide: Line, near: Point, *rest: Any
     return total / cross(foot - far, normal) * normal
 
 
-class SlidePressure(ForceByMoments, frozen=True, kw_only=True):
+class SlidePressure(ForceOnLine, frozen=True, kw_only=True):
     """The force ``name`` on the link at ``near`` from the ``link`` at ``far``, normal to a guide.
 
-    ``moments`` are those of the link at far about its pin, ``others`` those of the link at near.
+    ``moments`` are those of the link at far about its pin, ``others`` those of the link at near,
+    about the pin ``through`` which the normal is drawn.
     """
 
     reasons: ClassVar[Mapping[str, str]] = {"force": "why.force_pressure"}
     none: ClassVar[str] = "step.force-pressure-none"
 
-    number: str
     link: str
     block: str
     others: Moments
-    foot: OwnStep
-
-    def marks(self, canvas: Canvas, role: str) -> None:
-        """Draw the arm of the force about the far pin."""
-        if role != "foot":
-            return
-        far, near, foot = map(canvas.value, (self.moments.about, self.others.about, self.foot))
-        if canvas.size(foot - far) <= SEEN:
-            return
-        line_arm(canvas, (self.name, self.number), far, near, foot)
 
     def sentence_key(self, drawing: Drawing) -> str:
         both = self.others.shown(drawing)
@@ -219,11 +214,6 @@ class SlidePressure(ForceByMoments, frozen=True, kw_only=True):
             "h": symbol(self.number),
             "guide": way_of(drawing, self.block),
         }
-
-    def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
-        """The distance of the normal from the far pin."""
-        foot, far = (drawing.trace.values[n] for n in (self.foot, self.moments.about))
-        return [(symbol(self.number), figure(drawing, drawing.on_paper(abs(foot - far))))]
 
 
 def pressure(
@@ -255,6 +245,7 @@ def pressure(
         block=block,
         moments=own,
         others=others,
+        through=others.about,
         foot=foot,
         force=force,
     )

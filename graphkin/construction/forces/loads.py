@@ -40,13 +40,13 @@ from graphkin.text import COMMA, saying
 
 
 def newtons(drawing: Drawing, size: float) -> str:
-    """A force as printed, in N."""
-    return f"{answer(drawing, size)} {drawing.words.spelled('N')}"
+    """A force as printed, in N or in the unit of results."""
+    return f"{answer(drawing, size)} {drawing.words.unit('N')}"
 
 
 def newton_metres(drawing: Drawing, moment: float) -> str:
-    """The magnitude of a moment as printed, in N·m."""
-    return f"{answer(drawing, abs(moment))} {drawing.words.spelled('N·m')}"
+    """The magnitude of a moment as printed, in N·m or in the unit of results."""
+    return f"{answer(drawing, abs(moment))} {drawing.words.unit('N·m')}"
 
 
 def drawn_force(drawing: Drawing, size: float) -> OnPaper:
@@ -387,7 +387,7 @@ class InertiaMoment(Construction, frozen=True, kw_only=True):
             "step.force-inertia-couple",
             turning=symbol("M_" + sub("i", self.link)),
             j=symbol(f"J_{self.link}"),
-            e=symbol(f"ε_{self.link}"),
+            e=drawing.symbol(f"ε_{self.link}"),
             size=newton_metres(drawing, moment),
             sense=sense(drawing.words, moment),
         )
@@ -403,7 +403,7 @@ def of_moment(drawing: Drawing, link: str, inertia: int, epsilon: int) -> Relati
     j, spun = (abs(float(drawing.trace.values[n])) for n in (inertia, epsilon))
     result = answer(drawing, j * spun)
     figures = put_in(drawing, result, lambda j, e: j * e, j, spun)
-    symbols = f"{symbol(f'J_{link}')}·{symbol(f'ε_{link}')}"
+    symbols = f"{symbol(f'J_{link}')}·{drawing.symbol(f'ε_{link}')}"
     return Relation(symbol("M_" + sub("i", link)), symbols, "·".join(figures), result, "N·m")
 
 
@@ -486,7 +486,7 @@ class ByTable(Construction, frozen=True, kw_only=True):
         return words(
             "step.force-table",
             p=symbol(self.name),
-            size=f"{answer(drawing, float(number))} {self.unit}",
+            size=f"{answer(drawing, float(number))} {words.unit(self.unit)}",
             at=quantity_text(drawing.scene, words, driver.position),
         )
 

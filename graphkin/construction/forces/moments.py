@@ -23,7 +23,7 @@ from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import OwnStep, Part, Plane
 from graphkin.construction.core.quantities import in_mm
 from graphkin.construction.core.relation import Relation, answer, figure
-from graphkin.construction.core.vocabulary import action
+from graphkin.construction.core.vocabulary import Action, action
 from graphkin.construction.forces.loads import (
     LinkForce,
     force_amount,
@@ -106,18 +106,6 @@ def right_angle(canvas: Canvas, corner: Any, toward: Any, way: Any) -> None:
         canvas.leg("right-angle", "square-mark", corner + first + second, corner + second)
 
 
-def line_arm(canvas: Canvas, names: tuple[str, str], about: Any, through: Any, foot: Any) -> None:
-    """Draw a line of action from a point to the foot on it, and the arm as a dimension.
-
-    ``names`` are those of the force and of its arm.
-    """
-    force, arm = names
-    canvas.leg(force, "ray", through, foot)
-    canvas.dimension(arm, about, foot)
-    along = foot - through
-    right_angle(canvas, foot, about, along if canvas.size(along) > SEEN else 1j * (about - foot))
-
-
 @action("left-couple")
 def left_couple(about: Point, guide: Line, reaction: Point, *rest: Any) -> Real:
     """The couple of a guide without a reaction that balances the moments about a point."""
@@ -134,7 +122,7 @@ def slanted(kind: ForceArm, foot: Any, get: Callable[[int], Any]) -> Any:
 
 def about_outer(kind: TangentialPart, force: Any, get: Callable[[int], Any]) -> Any:
     """The part of a reaction by arms about the outer pin, each with its right sense."""
-    outer, inner = get(kind.outer), get(kind.inner)
+    outer, inner = get(kind.outer), get(kind.moments.about)
     total: Any = 0.0
     for term in kind.moments.terms:
         if term.foot is None or term.force is None:
@@ -201,6 +189,14 @@ class Moments(Struct, frozen=True):
     def extra(self) -> tuple[float, ...]:
         """The number of pairs, after the inputs."""
         return (float(sum(t.foot is not None for t in self.terms)),)
+
+    def balanced(
+        self, pen: Pen, action: Action, *inputs: int, extra: tuple[float, ...] = ()
+    ) -> int:
+        """The force or moment that balances them by an action, from the point and other inputs."""
+        with pen.on(Part.FORCE, Plane.NUMBERS):
+            steps = self.about, *inputs, *self.steps
+            return pen.draw(action, *steps, extra=(*self.extra, *extra))
 
     def values(self, drawing: Drawing) -> Iterator[tuple[MomentTerm, float, float, float]]:
         """Each term with its moment in N·m, its force in N and its arm in mm on paper."""
@@ -307,6 +303,11 @@ class ForceByMoments(Construction, frozen=True, kw_only=True):
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The arm of the force on paper as a product: each factor in symbols and in figures."""
 
+    def reach(self, drawing: Drawing, end: int) -> str:
+        """The drawn distance of a step from the point of the moments, in figures."""
+        values = drawing.trace.values
+        return figure(drawing, drawing.on_paper(abs(values[end] - values[self.moments.about])))
+
     def below(self, drawing: Drawing) -> tuple[str, str]:
         """The arm that divides the sum, in symbols and in figures."""
         metres = any(each.in_metres(drawing) for each in self.every)
@@ -368,7 +369,6 @@ class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
     link: str
     ends: tuple[str, str]
     outer: int
-    inner: int
 
     def sentence_key(self, drawing: Drawing) -> str:
         return "step.force-tangential"
@@ -385,8 +385,7 @@ class TangentialPart(ForceByMoments, frozen=True, kw_only=True):
 
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The bar."""
-        outer, inner = (drawing.trace.values[end] for end in (self.outer, self.inner))
-        return [(bar(*self.ends), figure(drawing, drawing.on_paper(abs(outer - inner))))]
+        return [(bar(*self.ends), self.reach(drawing, self.outer))]
 
 
 class PlaceOnGuide(Construction, frozen=True, kw_only=True):
@@ -510,7 +509,6 @@ def tangential(
         link=link,
         ends=ends,
         outer=outer,
-        inner=moments.about,
         moments=moments,
         force=force,
     )
@@ -606,6 +604,5 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
 
 def balance_of(pen: Pen, name: str, link: str, moments: Moments) -> int:
     """The balancing moment of a driven crank."""
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        moment = pen.draw(balancing_moment, moments.about, *moments.steps, extra=moments.extra)
+    moment = moments.balanced(pen, balancing_moment)
     return pen.make(BalancingMoment(name=name, link=link, moments=moments, moment=moment)).moment

@@ -31,7 +31,7 @@ from graphkin.construction.forces.loads import LinkForce, drawn_force, force_amo
 from graphkin.drawing.symbol_markup import bar, escape, symbol
 from graphkin.numbers.arithmetic import Point
 from graphkin.numbers.plane import Line
-from graphkin.text import AND, COMMA
+from graphkin.text import COMMA
 
 PART = "reaction-part"
 """The style of the parts of reactions along and across bars."""
@@ -87,6 +87,18 @@ class SideDirection(NamedTuple):
         if self.guide is None:
             return f"∥ {bar(*self.ends)}"
         return f"{'∥' if self.along else '⊥'} {way_of(drawing, self.block)}"
+
+
+class ClosingSide(NamedTuple):
+    """A side of known direction that closes a polygon: its symbol, its direction and its style.
+
+    ``bar`` is the link, or the cylinder, along which it acts where that one carries no loads.
+    """
+
+    name: str
+    way: SideDirection
+    look: str = REACTION
+    bar: str = ""
 
 
 class DrawnSide(NamedTuple):
@@ -181,7 +193,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
     one: OwnStep
     other: OwnStep
     corner: OwnStep
-    bars: tuple[str, str] = ("", "")
+    bars: tuple[str, str]
     cam: bool = False
 
     def vector_to(self, role: str) -> str:
@@ -231,7 +243,7 @@ class ClosedByLines(InPolygon, frozen=True, kw_only=True):
         if self.cam:
             fields = {"r": symbol(self.first), "way": self.ways[0].words(drawing)}
             before.append(drawing.words("step.force-cam", **fields))
-        return AND.join([*before, said])
+        return drawing.words.clauses([*before, said])
 
     def two_force(self, drawing: Drawing) -> Iterator[str]:
         """The links without loads between their pins, whose reactions lie along them."""
@@ -409,17 +421,9 @@ class Polygon:
                 return pen.draw(along_bar, start, p, q)
             return pen.draw(along_guide if way.along else normal_to_guide, start, way.guide)
 
-    def close(
-        self,
-        names: tuple[str, str],
-        ways: tuple[SideDirection, SideDirection],
-        looks: tuple[str, str],
-        bars: tuple[str, str] = ("", ""),
-        *,
-        cam: bool = False,
-    ) -> ClosedByLines:
+    def close(self, first: ClosingSide, last: ClosingSide, *, cam: bool = False) -> ClosedByLines:
         """Close the polygon by two sides: one through its start, and one through its end."""
-        one, other = self.line(self.start, ways[0]), self.line(self.last, ways[1])
+        one, other = self.line(self.start, first.way), self.line(self.last, last.way)
         with self.pen.on(Part.FORCE, Plane.FORCES):
             corner = self.pen.draw(meet, one, other)
         return self.pen.make(
@@ -427,17 +431,17 @@ class Polygon:
                 polygon=self.number,
                 kind=self.kind,
                 links=self.links,
-                first=names[0],
-                last=names[1],
-                looks=looks,
-                ways=ways,
+                first=first.name,
+                last=last.name,
+                looks=(first.look, last.look),
+                ways=(first.way, last.way),
                 sides=tuple(self.sides),
                 start=self.start,
                 end=self.last,
                 one=one,
                 other=other,
                 corner=corner,
-                bars=bars,
+                bars=(first.bar, last.bar),
                 cam=cam,
             )
         )

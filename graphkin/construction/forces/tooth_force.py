@@ -164,9 +164,8 @@ class ToothForce(ForceByMoments, frozen=True, kw_only=True):
 
     def arm(self, drawing: Drawing) -> Sequence[tuple[str, str]]:
         """The base radius."""
-        pitch, about = (drawing.trace.values[n] for n in (self.pitch, self.moments.about))
         radius = bar(*self.across) if self.across[0] else f"*r*_{{{escape(self.link)}}}"
-        factors = [(radius, figure(drawing, drawing.on_paper(abs(pitch - about))))]
+        factors = [(radius, self.reach(drawing, self.pitch))]
         if self.angle:
             cosine = math.cos(math.radians(self.angle))
             factors.append((f"cos {self.angle}°", figure(drawing, cosine)))
@@ -214,10 +213,7 @@ def tooth(
     Teeth push the wheel ``outward`` from the point of the moments, or towards it.
     """
     slant = (-1 if outward else 1) * math.tan(math.radians(angle))
-    with pen.on(Part.FORCE, Plane.NUMBERS):
-        force = pen.draw(
-            tooth_force, moments.about, pitch, *moments.steps, extra=(*moments.extra, slant)
-        )
+    force = moments.balanced(pen, tooth_force, pitch, extra=(slant,))
     found = ToothForce(
         name=name, link=link, angle=angle, moments=moments, pitch=pitch, force=force, across=across
     )

@@ -1,6 +1,7 @@
 """Guides in the plane: their lines, where lines cross, and links set at a coordinate on them.
 
-A driver or the closure of a group gives the coordinate, on a guide or on a track.
+A driver or the closure of a group gives the coordinate, on a guide or on a track. Parallel bars
+give a link the direction of a known one.
 """
 
 from __future__ import annotations
@@ -25,12 +26,13 @@ from graphkin.construction.core.palette import MARK_OFF, Move, one_and_length
 from graphkin.construction.core.pen import Pen
 from graphkin.construction.core.program import Drive, OwnStep, Part, Plane, Step
 from graphkin.construction.core.vocabulary import across, action, along_bar, difference, meet, ray
-from graphkin.construction.links.link_shapes import local_place, polar
+from graphkin.construction.links.link_shapes import local_place
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real, at
 from graphkin.numbers.plane import Line, cross, dot
 from graphkin.scene.link_points import is_under
 from graphkin.scene.model import FRAME, Apart, At, GuideOrTrack, OnLine, Slide
+from graphkin.structure.groups import KeptParallel
 from graphkin.structure.pairs import PinLine, Sliding
 from graphkin.structure.turning import guide_on
 
@@ -101,14 +103,13 @@ def gap(offset: Real, here: Real, there: Real) -> Real:
 
 @action("stretch")
 def stretch(
-    pin: Point, first: Point, offset: Real, end: Point, here: Point, there: Point, where: Real
+    pin: Point, first: Point, offset: Real, end: Point, here: Point, along: Point, where: Real
 ) -> Point:
     """The vector from a pin of the link with the guide to a pin of the block, in the guide's axes.
 
     ``pin`` and ``first`` belong to the block. ``end`` belongs to the other link, whose guide runs
-    from ``here`` towards ``there``. ``where`` is the block's coordinate.
+    from ``here`` the way ``along``. ``where`` is the block's coordinate.
     """
-    along = there - here
     return at(where, offset) + (pin - first) - (end - here) * (along.conjugate() / abs(along))
 
 
@@ -324,18 +325,19 @@ def direction_on(pen: Pen, link: str, direction: int) -> int:
 
 
 def local_line(pen: Pen, slide: GuideOrTrack, on: str) -> tuple[int, int]:
-    """A point of a guide or track, and a second one ahead of it, in the axes of their link."""
+    """A point of a guide or track, and the way ahead along it, in the axes of their link."""
     along = slide.along if isinstance(slide, Slide) else None
-    if along is not None:
-        return local_place(pen, on, along[0]), local_place(pen, on, along[1])
     with pen.on(Part.SHAPE, Plane.NUMBERS):
+        if along is not None:
+            start, end = (local_place(pen, on, point) for point in along)
+            return start, pen.draw(way_between, start, end)
         through = slide.through
         assert through is not None
         if isinstance(through, str):
             start = local_place(pen, on, through)
         else:
             start = pen.given("point", *through)
-        return start, pen.draw(polar, start, pen.given("direction", slide.angle), pen.given("one"))
+        return start, pen.given("direction", slide.angle)
 
 
 def guide_line(pen: Pen, slide: GuideOrTrack, on: str, name: str) -> int:
@@ -425,22 +427,22 @@ def path_of_block(pen: Pen, pair: Sliding, line: int, point: str) -> int:
 def path_of_carrier(pen: Pen, pair: Sliding, line: int, point: str) -> int:
     """The parallel to a guide on which a point of the link that carries the guide moves."""
     carrier = pair.links[1]
-    ends = local_line(pen, pair.slide, carrier)
+    guide = local_line(pen, pair.slide, carrier)
     if not pen.has("axis", carrier):
         with pen.on(Part.POSITION, Plane.NUMBERS):
-            found = pen.draw(axis_by_guide, axis(pen, pair.block), *ends)
+            origin = pen.given("origin")
+            found = pen.draw(axis_by_guide, axis(pen, pair.block), origin, guide[1])
             pen.want("axis", carrier, found)
     if lies_on(pair.slide, point):
         return line
     with pen.on(Part.SHAPE, Plane.NUMBERS):
-        beside = beside_guide_of(pen, carrier, point, ends)
+        beside = beside_guide_of(pen, carrier, point, guide)
     return shift_guide(pen, pair.block, line, beside)
 
 
-def beside_guide_of(pen: Pen, link: str, point: str, ends: tuple[int, int]) -> int:
-    """The distance of a link's point to the left of a guide through two places on the link."""
-    along = pen.draw(way_between, *ends)
-    return pen.draw(beside_guide, local_place(pen, link, point), ends[0], along)
+def beside_guide_of(pen: Pen, link: str, point: str, guide: tuple[int, int]) -> int:
+    """The distance of a link's point to the left of a guide on the link, a place and a way."""
+    return pen.draw(beside_guide, local_place(pen, link, point), *guide)
 
 
 def lies_on(slide: Slide, point: str) -> bool:
@@ -479,8 +481,7 @@ def height_of(pen: Pen, pair: Sliding, pins: dict[str, str]) -> int | None:
         return None
     with pen.on(Part.SHAPE, Plane.NUMBERS):
         here = pen.draw(across, local_place(pen, block, first), local_place(pen, block, on_block))
-        ends = local_line(pen, pair.slide, carrier)
-        there = beside_guide_of(pen, carrier, on_carrier, ends)
+        there = beside_guide_of(pen, carrier, on_carrier, local_line(pen, pair.slide, carrier))
         offset = pen.given("length", pair.slide.offset)
         return pen.draw(gap, offset, here, there)
 
@@ -524,11 +525,11 @@ def height_over(pen: Pen, pair: Sliding, pin: str, rail: str, point: str) -> int
     """The distance of a pin to the left of a point of the rail, across the guide between them."""
     block, carrier = pair.links
     first = local_place(pen, block, pen.scene.link(block).points[0])
-    ends, offset = local_line(pen, pair.slide, carrier), pen.given("length", pair.slide.offset)
+    guide, offset = local_line(pen, pair.slide, carrier), pen.given("length", pair.slide.offset)
     if carrier == rail:
         here = pen.draw(across, first, local_place(pen, block, pin))
-        return pen.draw(gap, offset, here, beside_guide_of(pen, rail, point, ends))
-    there = beside_guide_of(pen, carrier, pin, ends)
+        return pen.draw(gap, offset, here, beside_guide_of(pen, rail, point, guide))
+    there = beside_guide_of(pen, carrier, pin, guide)
     lower = pen.draw(across, first, local_place(pen, block, point))
     return pen.draw(difference, there, pen.draw(gap, lower, offset, pen.given("zero")))
 
@@ -545,12 +546,13 @@ def turned_with(pen: Pen, pair: Sliding, known: str) -> None:
     other = carrier if known == block else block
     if pen.has("axis", other):
         return
-    ends = local_line(pen, pair.slide, carrier)
+    _, along = local_line(pen, pair.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
+        line = pen.given("origin"), along
         if other == carrier:
-            found = pen.draw(axis_by_guide, axis(pen, block), *ends)
+            found = pen.draw(axis_by_guide, axis(pen, block), *line)
         else:
-            found = pen.draw(axis_with_guide, axis(pen, carrier), *ends)
+            found = pen.draw(axis_with_guide, axis(pen, carrier), *line)
         pen.want("axis", other, found)
 
 
@@ -639,3 +641,45 @@ def set_carrier(
     link, on = pair
     pen.make(CarrierSetByCoordinate(link=link, on=on, path=zero, where=where, point=point))
     return point
+
+
+# --- links that parallel bars keep parallel to a known link ---------------------------------------
+
+
+class KeptDirection(Construction, frozen=True, kw_only=True):
+    """The direction of a ``link`` that ``bars`` keep parallel to the link ``lead``."""
+
+    reasons: ClassVar[Mapping[str, str]] = {"turn": "why.parallel"}
+    pencil: ClassVar[Mapping[str, ByHand]] = {"turn": ByHand.TURNED}
+    titled: ClassVar[str] = "the direction of link {link}"
+
+    link: str
+    lead: str
+    bars: tuple[str, ...]
+    turn: OwnStep
+
+    def sentence_alone(self, drawing: Drawing, role: str) -> str:
+        """The sentence that names the bars and the link to which they keep it parallel."""
+        if role != "turn":
+            return ""
+        words = drawing.words
+        listed = words("list_mark").join(map(escape, self.bars))
+        key = "step.kept-still" if self.lead == FRAME else "step.kept-parallel"
+        return words(key, k=escape(self.link), lead=escape(self.lead), list=listed)
+
+
+def keep_parallel(pen: Pen, group: KeptParallel) -> None:
+    """Draw the direction of the link, from set to set of bars."""
+    here = group.lead
+    if not pen.turns(here):
+        pen.shifting |= {group.link}
+    turn = pen.given("one") if here == FRAME else axis(pen, here)
+    with pen.on(Part.POSITION, Plane.MECHANISM):
+        for each in group.sets:
+            near, far = each.links if each.links[0] == here else each.links[::-1]
+            for link, draw in ((near, axis_with_guide), (far, axis_by_guide)):
+                ends = (local_place(pen, link, point) for point in each.line_on(link))
+                turn = pen.draw(draw, turn, *ends)
+            here = far
+    pen.make(KeptDirection(link=group.link, lead=group.lead, bars=group.bars, turn=turn))
+    pen.want("axis", group.link, turn)

@@ -263,9 +263,9 @@ def swing_guide(pen: Pen, group: Dyad) -> None:
     height = height_of(pen, group.inner, pins)
     own = {"link": carrier, "block": block, "pivot": pins[carrier], "pin": pins[block]}
     turn, _ = lay_guide(pen, group, height, own)
-    ends = local_line(pen, group.inner.slide, carrier)
+    _, along = local_line(pen, group.inner.slide, carrier)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", carrier, pen.draw(axis_by_guide, turn, pen.given("origin"), along))
         pen.want("axis", block, turn)
     pen.want("position", pen.bases[carrier].end or "", pen.the("position", pins[block]))
 
@@ -277,9 +277,9 @@ def guide_by_pins(pen: Pen, group: OnTwoPins) -> None:
     own: dict[str, Any] = {"link": group.rail, "block": block, "pivot": pivot, "pin": pin}
     own["ahead"] = way_of(pen.scene, group)
     turn, line = lay_guide(pen, group, height_between(pen, group.inner), own)
-    ends = local_line(pen, group.inner.slide, start)
+    _, along = local_line(pen, group.inner.slide, start)
     with pen.on(Part.POSITION, Plane.NUMBERS):
-        pen.want("axis", start, pen.draw(axis_by_guide, turn, *ends))
+        pen.want("axis", start, pen.draw(axis_by_guide, turn, pen.given("origin"), along))
     turned_with(pen, behind, start)
     turned_with(pen, ahead, group.rail)
     if is_through(pen, behind, pivot):

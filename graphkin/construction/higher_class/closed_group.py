@@ -124,7 +124,7 @@ class ClosedGroup(ClosesGroup, PlacesLink, frozen=True):
                 fields |= {"c": symbol(last.wheel.centre), "t": symbol(last.letter)}
                 whole = drawing.words("step.close-wheel", **fields)
             within = drawing.words("list_mark").join(self.tried_within(drawing))
-            return f"{whole}; {within}" if within else whole
+            return drawing.words.clauses((whole, within)) if within else whole
         fields["draw"] = self.drawn_each_time(drawing)
         fields["q"] = symbol(self.locus)
         if self.guide:

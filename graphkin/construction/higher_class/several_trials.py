@@ -1,21 +1,24 @@
 """Groups in which several links are tried at once until all cuts fit.
 
 Cells of a grid in which no misfit can vanish are dropped as soon as the links tried so far show
-this. The closures are found in the remaining cells. The search may miss a closure where a misfit
-takes all its range within one cell, or one that nearly merges with another. The module completeness
-says whether that is ruled out.
+this. The closures are found in the remaining cells. Misfits are multiplied by what
+has a zero at their poles. The search may miss a closure where a misfit takes all its range within
+one cell, or one that nearly merges with another. The module completeness says whether that is ruled
+out.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 from graphkin.construction.core.run import Ready, run_moving
+from graphkin.construction.core.vocabulary import meet
 from graphkin.construction.higher_class.closure_solver import Closures, Trying, sign_table
 from graphkin.numbers.arithmetic import batch_kind, np
 from graphkin.numbers.common_roots import (
+    CLOSED,
     Array,
     Cells,
     FlatDyad,
@@ -25,6 +28,7 @@ from graphkin.numbers.common_roots import (
     may_vanish,
     steps_of,
 )
+from graphkin.numbers.plane import cross
 
 ACROSS = {2: 120, 3: 32, 4: 12}
 """Grid steps along each unknown, by the number of unknowns tried before a misfit is known."""
@@ -39,6 +43,8 @@ MIDDLE, WIDER = 0.9, 2.0
 
 Near parallel lines a misfit grows without bound; without this limit no cell would be dropped.
 """
+BESIDE = 1e-7
+"""How far from where the search found it a closure may be, in radians or parts of its range."""
 TRACES = 40
 """Number of places on each side of a closure at which a locus is drawn."""
 TRACED = 0.02
@@ -126,8 +132,26 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         ]
         row, share = common_roots(chain.missed, chain.at, edges, cells, half, ranges)
         tried = self.valued(share, scales[owner[row]])
+        here = [array[owner[row]] for array in known]
+        tried = self.settled_beside(here, tried, signs[row], scales[owner[row]], ranges[row])
+        row, tried = row[np.isfinite(tried[:, 0])], tried[np.isfinite(tried[:, 0])]
         touching = np.zeros(row.size, dtype=bool)
         return self.ordered(known, size, owner[row], tried, signs[row], touching)
+
+    def settled_beside(
+        self, known: Sequence[Any], tried: Array, signs: Array, scales: Array, ranges: Array
+    ) -> Array:
+        """Trial values (K, n) with all their digits; NaN where a misfit has a pole instead.
+
+        Where two closures merge, or a dyad is flat, Newton's method does not tell; what the search
+        found is then kept.
+        """
+        with np.errstate(all="ignore"):
+            misfits = self.misfits(known, tried, signs)
+            closed = (abs(misfits) < CLOSED * ranges).all(axis=1)
+            found = self.closed_beside(known, tried, signs)
+            near = (abs(found - tried) < BESIDE * scales).all(axis=1)
+        return np.where(near[:, None], found, np.where(closed[:, None], tried, np.nan))
 
     def closed_over_flat(
         self, known: Sequence[Any], tried: Array, signs: Array, room: float
@@ -165,13 +189,49 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         start, way = np.array([one.shares for one in self.unknowns], dtype=float).T
         return start, way
 
-    # --- cells in which all misfits may vanish ---------------------------------------------------
+    # --- misfits without poles -------------------------------------------------------------------
+
+    @cached_property
+    def lines(self) -> tuple[tuple[tuple[int, ...], ...], ...]:
+        """For each unknown: the pairs of lines that cross before its misfit is known."""
+        steps = self.program.steps
+        return tuple(
+            tuple(
+                steps[n].args
+                for n in self.program.behind((one.misfit,))
+                if (action := steps[n].action) is not None and action.value is meet.value
+            )
+            for one in self.unknowns
+        )
+
+    def keep(self, k: int) -> tuple[int, ...]:
+        """The steps from which the misfit of an unknown without its poles is known."""
+        return (self.unknowns[k].misfit, *(n for pair in self.lines[k] for n in pair))
 
     @cached_property
     def looked_at(self) -> Ready:
         """The program for the misfits and for the values from which the dyads are drawn."""
         drawn = (arg for choice in self.choices if choice for arg in choice[2])
-        return self.readied((*(one.misfit for one in self.unknowns), *drawn))
+        return self.readied((*self.smooth.keep, *drawn))
+
+    @cached_property
+    def smooth(self) -> Ready:
+        """The program for the misfits without their poles."""
+        return self.readied(tuple(n for k, _ in enumerate(self.unknowns) for n in self.keep(k)))
+
+    def without_poles(self, k: int, found: Mapping[int, Any]) -> Any:
+        """The misfit of an unknown, times the sines at which lines cross before it.
+
+        A misfit has a pole where such lines are parallel; beside it, it may vanish within far less
+        than a cell.
+        """
+        misfit = found[self.unknowns[k].misfit]
+        for one, other in self.lines[k]:
+            first, second = found[one].along, found[other].along
+            misfit = misfit * cross(first, second) / (abs(first) * abs(second))
+        return misfit
+
+    # --- cells in which all misfits may vanish ---------------------------------------------------
 
     @cached_property
     def stages(self) -> tuple[GridStage, ...]:
@@ -189,7 +249,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
             misfits = [k for k, one in enumerate(self.unknowns) if least(one.misfit) == count]
             within = [each for each in reaches if max(map(least, each[1])) == count]
             keep = (
-                *(self.unknowns[k].misfit for k in misfits),
+                *(n for k in misfits for n in self.keep(k)),
                 *(arg for _, args in within for arg in args),
             )
             needed = self.program.behind(keep)
@@ -274,7 +334,7 @@ class SeveralTrials(Trying, frozen=True, dict=True):
         with np.errstate(all="ignore"):
             trace = run_moving(stage.ready, self.values, batch_kind(), overrides=overrides)
             shape = len(first), len(new), across + 1
-            misfits = [trace.values[self.unknowns[k].misfit] for k in stage.misfits]
+            misfits = [self.without_poles(k, trace.values) for k in stage.misfits]
             reaches = [
                 factor
                 for far, args in stage.reaches
@@ -352,7 +412,8 @@ class Corners(NamedTuple):
             ends = [(*self.ends(each), self.bending(each)) for each in drawn]
             whole = self.over(np.logical_and, finite)
             some = self.over(np.logical_or, finite)
-            keep = may_vanish(ends, [*map(self.ends, self.reaches)], some, whole, ranges, side)
+            reaches = [(*self.ends(each), self.edges(each)) for each in self.reaches]
+            keep = may_vanish(ends, reaches, some, whole, ranges, side)
         cell, code, step = np.nonzero(keep)
         codes = self.row[cell] + np.broadcast_to(self.codes, self.shape[1])[code]
         return codes, np.column_stack([self.place[cell], step])
@@ -360,6 +421,11 @@ class Corners(NamedTuple):
     def ends(self, value: Array) -> tuple[Array, Array]:
         """The least and the largest value at the corners of each cell."""
         return self.over(np.fmin, value), self.over(np.fmax, value)
+
+    def edges(self, reach: Array) -> Array:
+        """The largest size of a reach for cells at whose corners it is unknown, otherwise zero."""
+        known = self.over(np.logical_and, np.isfinite(reach))
+        return np.where(known, 0.0, np.fmax.reduce(abs(reach), axis=None, initial=0.0))
 
     def bending(self, value: Array) -> Array:
         """The largest sum of second differences at the corners of each cell; unknown ones are 0."""
@@ -399,7 +465,15 @@ class DrawnChain:
         return here, self.trying.valued(share, self.scales[owner]), self.signs[row]
 
     def missed(self, row: Array, share: Array) -> Array:
-        return self.trying.misfits(*self.trials(row, share))
+        """The misfits without poles (K, n)."""
+        found = self.trying.run(self.trying.smooth, *self.trials(row, share))
+        with np.errstate(all="ignore"):
+            return np.stack([*self.misfits(found, len(row))], axis=1)
+
+    def misfits(self, found: Mapping[int, Any], count: int) -> Iterator[Array]:
+        """Each misfit without poles (K,) among results."""
+        for k in range(len(self.trying.unknowns)):
+            yield np.broadcast_to(self.trying.without_poles(k, found), count)
 
     def reach(self, k: int, row: Array, share: Array) -> Array:
         """How far the dyad of a sign is drawable (K,): positive where it can be drawn."""
@@ -409,13 +483,9 @@ class DrawnChain:
         """Each misfit, and each factor of how far a dyad is drawable, in their order: (K,) each."""
         found = self.trying.run(self.trying.looked_at, *self.trials(row, share))
         choices = [choice for choice in self.trying.choices if choice is not None]
-        misfits = [found[one.misfit] for one in self.trying.unknowns]
         with np.errstate(all="ignore"):
+            misfits = [*self.misfits(found, len(row))]
             reaches = [
                 factor for _, far, args in choices for factor in far(*(found[arg] for arg in args))
             ]
-        count = len(row)
-        return (
-            [np.broadcast_to(each, count) for each in misfits],
-            [np.broadcast_to(each, count) for each in reaches],
-        )
+        return misfits, [np.broadcast_to(each, len(row)) for each in reaches]

@@ -12,10 +12,9 @@ from itertools import groupby
 
 from msgspec import Struct, field
 
-from graphkin.construction.core.auxiliary_plan import AuxiliaryPlan, auxiliary_plan
 from graphkin.construction.core.canvas import Canvas
 from graphkin.construction.core.drawn_scene import Drawing
-from graphkin.construction.core.kind import Sentence, construction
+from graphkin.construction.core.kind import AuxiliaryPlan, Sentence, auxiliary_plan, construction
 from graphkin.construction.core.naming import (
     NAUGHT,
     drawn_between,
@@ -55,7 +54,6 @@ from graphkin.numbers.plane import Vector
 from graphkin.scene.link_points import ends_of, is_under, under
 from graphkin.structure.groups import CoupledTrain, Higher, Tie
 from graphkin.structure.pairs import Pin
-from graphkin.text import AND
 
 SECOND = tuple(TAGS)[1]
 """The tag of the second of two trial plans."""
@@ -164,7 +162,7 @@ class TrialPlan(Struct, AuxiliaryPlan, frozen=True, eq=False):
                 full = self.first is None
                 clauses = (self.in_full if full else self.shortened)(drawing, named)
                 markup = self.introduced(
-                    drawing, AND.join(clauses), first=self.begins(drawing, named)
+                    drawing, drawing.words.clauses(clauses), first=self.begins(drawing, named)
                 )
                 yield Sentence(number, f"trial{self.tag}", markup, tuple(named))
 

@@ -394,7 +394,7 @@ def trial_value(pen: Pen, group: CoupledTrain | Higher, plan: Plan) -> int:
     drivers = pen.scene.drivers
     one_turns = len(drivers) == 1 and drivers[0].kind == "turn"
     turns = isinstance(group.tried.pair, Pin)
-    slide = not turns or any(driver.kind == "slide" for driver in drivers)
+    slide = not turns or any(driver.kind != "turn" for driver in drivers)
     bar = pen.draw(far, *places_of(pen, group)) if slide else None
     seconds = pen.seconds()
     rate = pen.draw(inverse, seconds) if one_turns else pace_of(pen, VELOCITY, bar)

@@ -24,8 +24,8 @@ from graphkin.construction.links.dyad_by_arcs import cut_line, meet_arcs
 from graphkin.construction.links.link_shapes import bar_length, local_place, place
 from graphkin.construction.links.plate_points import arc, plate_points
 from graphkin.numbers.plane import cross
-from graphkin.scene.model import Apart, Link, Scene
-from graphkin.structure.groups import Crank, Driven, Dyad, Group, OnTwoPins, Tie
+from graphkin.scene.model import FRAME, Apart, Link, Scene
+from graphkin.structure.groups import CamFollower, Crank, Driven, Dyad, Group, OnTwoPins, Tie
 from graphkin.structure.pairs import Joint, Pin, Sliding
 from graphkin.structure.turning import body
 from graphkin.text.errors import NO_WORDS, Message, StructureError, message
@@ -150,6 +150,40 @@ def two_guides(pen: Pen, point: str, pairs: tuple[Joint, Joint], links: tuple[st
     pen.want("position", point, found)
     for led, _ in leading:
         led.finish(pen)
+
+
+def follower(pen: Pen, group: CamFollower) -> None:
+    """Place the follower at the coordinate or angle that the law of its cam gives."""
+    from graphkin.construction.cams import cam_centre
+
+    dyad = group.dyad
+    link = next(each for each in dyad.links if each in pen.scene.cams)
+    cam = pen.scene.cams[link]
+    if cam.carrier != FRAME:
+        pen.want("position", cam.centre, cam_centre.curvature_centre(pen, cam.centre))
+    lever = cam.lever
+    if lever:
+        cam_centre.set_lever(pen, link, lever)
+        if isinstance(dyad.inner, Sliding):
+            block_on(pen, dyad.inner, link)
+        return
+    if cam.slides:
+        *_, where = cam_centre.over_plate(pen, link)
+    else:
+        line = cam_centre.height(pen, link)
+        with pen.on(Part.POSITION, Plane.NUMBERS):
+            where = pen.draw(cam_centre.coordinate, *line)
+    assert not isinstance(dyad.right, Pin)
+    led_by(dyad.right).set_at(pen, link, where)
+    if isinstance(dyad.inner, Sliding):
+        turned_with(pen, dyad.inner, link)
+
+
+def block_on(pen: Pen, pair: Sliding, lever: str) -> None:
+    """Place the block that represents the contact on the face of a lever already placed."""
+    turned_with(pen, pair, lever)
+    under, block = pen.bases[lever].end, pen.bases[pair.block].start
+    pen.want("position", under or "", pen.the("position", block))
 
 
 def tie(pen: Pen, group: Tie) -> None:

@@ -128,12 +128,11 @@ def contact_of_wheels(track_centre: Point, centre: Point, track: Real, wheel: Re
 
 @action("rack-at")
 def rack_at(
-    centre: Point, axis: Point, here: Point, there: Point, point: Point, radius: Real, way: Real
+    centre: Point, axis: Point, here: Point, along: Point, point: Point, radius: Real, way: Real
 ) -> Point:
-    """A point of a rack, from the wheel that has rolled a way along its track (here to there)."""
-    line = there - here
-    along = axis * (line / abs(line))
-    return centre - along * at(way, radius) + axis * (point - here)
+    """A point of a rack, from the wheel that has rolled a way along its track through ``here``."""
+    line = axis * (along / abs(along))
+    return centre - line * at(way, radius) + axis * (point - here)
 
 
 @action("between-tracks")

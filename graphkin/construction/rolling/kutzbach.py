@@ -42,7 +42,7 @@ from graphkin.numbers.plane import Line, dot
 from graphkin.scene.link_points import under
 from graphkin.scene.model import FRAME, Driver
 from graphkin.structure.pairs import Contact, contacts
-from graphkin.text import AND, NOTHING
+from graphkin.text import NOTHING
 from graphkin.text.errors import NO_WORDS, Message, Problem, StructureError, message
 
 PLAN = "kutzbach"
@@ -314,7 +314,7 @@ def with_ladder_together(drawing: Drawing, found: list[Sentence]) -> list[Senten
             if isinstance(construction(steps[said.step]), kind)
         ]
         if len(own) > 1:
-            listed = AND.join(short(drawing, said.step) for said in own)
+            listed = drawing.words.clauses(short(drawing, said.step) for said in own)
             found = together(found, own, drawing.words(f"step.ladder-{role}s", list=listed))
     return found
 
@@ -330,9 +330,9 @@ def short(drawing: Drawing, number: int) -> str:
             return f"{kind.drawn(drawing, kind.foot, number)} ({symbol(f'v_{kind.point}')})"
         case LadderRay():
             ends = NOTHING.join(drawing.lettered(end) for end in (kind.first, kind.last))
-            return f"{escape(kind.link)}: {ends}"
+            return f"{escape(kind.link)}{drawing.words('colon')}{ends}"
         case SpeedRead():
-            return f"{escape(kind.link)}: {name}"
+            return f"{escape(kind.link)}{drawing.words('colon')}{name}"
     raise TypeError(f"{kind} is listed alone")
 
 

@@ -572,7 +572,7 @@ def rack(pen: Pen, group: Geared, slide: Sliding) -> None:
     if wheel == link or contact.track is not None:
         raise no_construction(group)
     path_of(pen, slide, link, point)
-    ends = local_line(pen, contact.rolling, link)
+    track = local_line(pen, contact.rolling, link)
     radius, axis_ = radius_of(pen, contact), axis(pen, link)
     with pen.on(Part.POSITION, Plane.NUMBERS):
         turn = angle_of(pen, wheel)
@@ -589,7 +589,7 @@ def rack(pen: Pen, group: Geared, slide: Sliding) -> None:
         way = pen.draw(way_rolled, turn, start_turn(pen, contact, wheel), radius)
     centre = pen.the("position", contact.wheel.centre)
     with pen.on(Part.POSITION, Plane.MECHANISM):
-        where = centre, axis_, *ends, local_place(pen, link, point), radius, way
+        where = centre, axis_, *track, local_place(pen, link, point), radius, way
         found = pen.want("position", point, pen.draw(rack_at, *where, name=point))
     pen.make(RackPoint(rack=link, wheel=wheel, way=way, point=found))
     plate_points(pen, pen.bases[link])  # its track may pass through another point of it

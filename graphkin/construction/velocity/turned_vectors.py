@@ -13,6 +13,7 @@ from graphkin.construction.core.kind import (
     EndsComponent,
     GivenVector,
     GivesRate,
+    auxiliary_plan,
     construction,
 )
 from graphkin.construction.core.naming import (
@@ -85,7 +86,9 @@ class LaidOffAboutPivot(AboutPivot, LaidOffByRate, frozen=True, kw_only=True):
         driver = driver_of_rate(drawing, rate)
         if driver is not None and self.link not in ("", driver.link, driver.against):
             own = drawing.symbol(f"{letter}_{self.link}")
-            remark = f"{remark}; {own} = {rate_symbol(drawing, rate, letter)}"
+            remark = drawing.words.clauses(
+                (remark, f"{own} = {rate_symbol(drawing, rate, letter)}")
+            )
         if square:
             remark = laid_off_words(drawing, "laid_off", size, p=symbol(self.p), q=symbol(self.q))
         return Relation(
@@ -132,8 +135,6 @@ def falls_key(drawing: Drawing, number: int, start: str) -> str:
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
     """The rate by which a step lays off a vector, as words; a tried rate is named by its link."""
-    from graphkin.construction.core.auxiliary_plan import auxiliary_plan
-
     plan = auxiliary_plan(drawing, number)
     if plan is not None and link:
         own, lead = drawing.symbol(f"{letter}_{link}"), turning_with(drawing, plan.turned_by(rate))

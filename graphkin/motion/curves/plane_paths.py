@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -29,9 +30,16 @@ from graphkin.motion.curves.charts import (
     noted,
     plane_page,
 )
-from graphkin.motion.curves.over_driver import Sampled, indexed, moving_points, some_of
+from graphkin.motion.curves.over_driver import (
+    Sampled,
+    indexed,
+    moving_points,
+    pictures,
+    sampled,
+    some_of,
+)
 from graphkin.motion.cycle import Cycle
-from graphkin.motion.single_loop import Band, Loop, Ring, class_of
+from graphkin.motion.single_loop import Band, Loop, Ring, class_of, loop_of
 from graphkin.scene.link_points import is_under
 from graphkin.text import words
 from graphkin.text.errors import ClosureError
@@ -409,3 +417,34 @@ def reach_note(loop: Loop) -> str:
         return f"{class_of(loop)}: the driver {turns}{more}"
     says = "the driver turns fully" if loop.turns else "the driver moves between dead points"
     return f"slider-crank: {says}{more}"
+
+
+# --- the figure files of a cycle ------------------------------------------------------------------
+
+
+def picture_files(cycle: Cycle, stem: str, formats: Sequence[str]) -> dict[str, bytes]:
+    """Every figure of a cycle by its file name, in each of the formats svg and png."""
+    from graphkin.writers.svg import write_svg
+
+    files: dict[str, bytes] = {}
+    for name, drawn in figures(sampled(cycle)):
+        page = drawn()
+        if "svg" in formats:
+            files[f"{stem}-{name}.svg"] = write_svg(page).encode("utf-8")
+        if "png" in formats:
+            from graphkin.writers.axes import write_png
+
+            files[f"{stem}-{name}.png"] = write_png(page)
+    return files
+
+
+def figures(found: Sampled) -> Iterator[tuple[str, Callable[[], Page]]]:
+    """Every figure with its name, drawn when called."""
+    yield from pictures(found).items()
+    if path_points(found):
+        yield "paths", partial(paths, found)
+    for link in centrode_links(found):
+        yield f"centrodes-{link}", partial(both_centrodes, found, link)
+    loop = loop_of(found.cycle)
+    if loop is not None:
+        yield "reach", partial(reach, found, loop)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from msgspec.structs import replace
 
-from graphkin.classroom.grading.class_standards import alike, by_driving, standards
+from graphkin.classroom.grading.class_marking import alike, by_driving, standards
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import items
 from graphkin.classroom.lab.lab_model import Lab, Rubric, exact_text

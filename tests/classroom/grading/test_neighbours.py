@@ -18,8 +18,8 @@ from graphkin.classroom.grading.neighbours import (
     standards_of,
     worst_drawn,
 )
-from graphkin.classroom.lab.fairness_words import apart_lines
 from graphkin.classroom.lab.lab_model import LabRule, Range, settings
+from graphkin.classroom.lab.lab_trial import apart_lines
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants import assign, class_files
 from graphkin.classroom.variants.assign import assigned

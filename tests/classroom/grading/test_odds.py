@@ -28,11 +28,12 @@ from graphkin.classroom.grading.copied_answers import (
     with_causes,
 )
 from graphkin.classroom.grading.graded import Answer, Graded
-from graphkin.classroom.grading.keys import Keys, distinct
-from graphkin.classroom.grading.likelihood import (
+from graphkin.classroom.grading.keys import (
     MISTAKES,
     PENCILS,
     Key,
+    Keys,
+    distinct,
     judged,
     likelihood_if_drawn,
     scattered,
@@ -52,7 +53,7 @@ COMPUTED = Kind("computed", (0.0, 0.02), step=0.1)
 KINDS = (FINE, ORDINARY, WEAK, COMPUTED) if EVERY else (ORDINARY, WEAK)
 EACH = 12 if EVERY else 8
 SLIPS = (None, *hand.SLIPS)
-SOME = SLIPS if EVERY else (None, "wrong_scale", "normal_reversed")
+SOME = SLIPS if EVERY else ("wrong_scale", "normal_reversed")
 Rows = Sequence[Mapping[str, Answer]]
 
 

@@ -23,14 +23,16 @@ from graphkin.classroom.grading.decisions import EMPTY
 from graphkin.classroom.grading.feedback import feedback_pages
 from graphkin.classroom.grading.graded import Answer, Decision, EarnedCause, Result, Suspicion
 from graphkin.classroom.grading.grading_files import (
+    KEPT_MARKS,
     ReportSettings,
     differences,
+    kept_marks,
     marks_table,
     points_by_id,
+    read_kept_marks,
     read_marks,
     report_files,
 )
-from graphkin.classroom.grading.kept_marks import KEPT_MARKS, kept_marks, read_kept_marks
 from graphkin.classroom.roster.students import Student, Taker
 from graphkin.cli.main import app
 from graphkin.text import words

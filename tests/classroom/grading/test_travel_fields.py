@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants, constructed
-from graphkin.classroom.grading.class_standards import standards
+from graphkin.classroom.grading.class_marking import standards
 from graphkin.classroom.grading.feedback import cause_words, quantity
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard

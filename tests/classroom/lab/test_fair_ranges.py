@@ -19,9 +19,8 @@ from graphkin.classroom.lab.fair_ranges import (
     round_step,
     runs_of,
 )
-from graphkin.classroom.lab.fairness_words import trial_lines
 from graphkin.classroom.lab.lab_model import LabRule, Range, ValueList
-from graphkin.classroom.lab.lab_trial import tried
+from graphkin.classroom.lab.lab_trial import trial_lines, tried
 from graphkin.classroom.lab.new_lab import (
     as_toml,
     candidates,

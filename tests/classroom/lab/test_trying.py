@@ -9,9 +9,8 @@ import numpy as np
 import pytest
 
 from graphkin.classroom.grading.neighbours import standards_of, worst_drawn
-from graphkin.classroom.lab.fairness_words import scale_table, trial_lines
 from graphkin.classroom.lab.lab_model import settings
-from graphkin.classroom.lab.lab_trial import tried
+from graphkin.classroom.lab.lab_trial import scale_table, trial_lines, tried
 from graphkin.classroom.lab.new_lab import new_lab
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster.students import Student
