@@ -171,7 +171,7 @@ def natural_seconds(mechanism: Mechanism) -> float:
     """The time in which vectors are about as large as the mechanism that they are set on."""
     points = sheet_motion(mechanism).points.values()
     places = extent_of([complex(point.position) for point in points if point.position is not None])
-    size = max(places.width, places.height)
+    size = max(places.width, places.height) or 1.0  # a single point has none
     fastest = max((abs(point.velocity or 0) for point in points), default=0.0)
     hardest = max((abs(point.acceleration or 0) for point in points), default=0.0)
     slowest = max(fastest / size, (hardest / size) ** 0.5)

@@ -95,10 +95,11 @@ def title_of(group: object) -> str:
 def case(seed: int) -> Case | None:
     """The mechanism of a seed, its scene complete.
 
-    None where nothing could be made, or where a group is tried by a dyad on its dead point.
+    None where no more than a point could be made, or where a group is tried by a dyad on its dead
+    point.
     """
     standing, kinds = made(seed)
-    if not kinds:
+    if not kinds or not standing.size:
         return None
     try:
         return told(seed, standing, kinds)

@@ -153,6 +153,32 @@ def test_an_open_chain_of_which_no_velocity_is_asked_is_solved(run: Run, tmp_pat
     assert result.exit_code == 0, result.stderr
 
 
+def test_a_single_point_has_a_motion_and_no_scale(run: Run, tmp_path: Path) -> None:
+    block = tmp_path / "block.toml"
+    block.write_text(
+        """graphkin = 1
+title = "One block"
+units = { length = "mm", angle = "deg", speed = "rad/s" }
+[frame]
+[links.1]
+B = [0, 0]
+slides = { on = 0, through = [10, 20], angle = 30 }
+[[drivers]]
+slide = 1
+position = 100
+speed = 50
+[ask]
+velocity = ["B"]
+""",
+        encoding="utf-8",
+    )
+    asked = run("solve", block, "--asked")
+    assert asked.exit_code == 0
+    assert "0.0433013" in asked.stdout  # 50 mm/s × cos 30°
+    assert "agrees" in asked.stdout
+    assert "scale: the mechanism has no extent" in run("solve", block).stderr
+
+
 # --- what drivers give ---------------------------------------------------------------------------
 
 

@@ -37,7 +37,7 @@ def test_a_slide_counts_from_the_zero_of_its_guide_to_the_blocks_first_point(mad
 def test_a_stretched_bar_reaches_from_pin_to_pin_in_the_axes_of_its_guide(here, way):
     """The guide runs through any point of its link; its block stands 5 along it and 2 beside."""
     own, block_pin, first = 0.7 + 0.4j, 1.5 - 1j, 0.5 + 0.25j
-    found = stretch(block_pin, first, 2.0, here + own * way, here, here + 3 * way, 5.0)
+    found = stretch(block_pin, first, 2.0, here + own * way, here, 3 * way, 5.0)
     seen = here + (5 + 2j + block_pin - first) * way
     assert found * way == pytest.approx(seen - (here + own * way))
 

@@ -7,7 +7,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import combinations
-from math import acos, degrees, hypot, isclose
+from math import acos, degrees, hypot, inf, isclose
 from typing import Any
 
 import numpy as np
@@ -239,6 +239,8 @@ def differences(
     for key in {*mine, *wanted}:
         a, b = mine.get(key, []), wanted.get(key, [])
         off = off_by(key[3])
+        if off is apart and key[2] == "LineMark":
+            off = off_on_paper
         for at in (each for each in a if not is_nowhere(key, each)):
             if min((off(at, other) for other in b), default=9.0) > LIMIT:
                 yield f"at {x:g} {key}: {at} is not drawn by Python, which has {b}"
@@ -246,6 +248,12 @@ def differences(
             for at in (each for each in b if not is_nowhere(key, each)):
                 if min((off(at, other) for other in a), default=9.0) > LIMIT:
                     yield f"at {x:g} {key}: {at} is not on the page, which has {a}"
+
+
+def off_on_paper(one: Sequence[float], other: Sequence[float]) -> float:
+    """How far two lines lie apart, or their parts on the sheet where both leave it."""
+    parts = [cut_to([*each], (0, 0, WIDTH, HEIGHT)) for each in (one, other)]
+    return min(apart(one, other), apart(*parts) if all(parts) else inf)
 
 
 @pytest.mark.parametrize("name", WHICH)

@@ -172,7 +172,8 @@ class Trying(Trial, frozen=True, dict=True):
         """Every closure of every element of known values, in the order of their numbers."""
         size = len(known[0]) if known else 1
         windows = Windows(np.arange(size), self.shares(known, size))
-        found = zip(*self.fits(known, self.scales(known, size), (), windows), strict=True)
+        once = [array[:1] if (array == array[0]).all() else array for array in known]
+        found = zip(*self.fits(once, self.scales(known, size), (), windows), strict=True)
         return self.ordered(known, size, *(np.concatenate(column) for column in found))
 
     def fits(
@@ -182,12 +183,16 @@ class Trying(Trial, frozen=True, dict=True):
 
         Yields elements, trial values (K, 1), signs, and a mask. The mask marks touches, where the
         misfit comes close to zero without changing sign. ``windows`` are the ranges in which the
-        dyads of the given signs can be drawn.
+        dyads of the given signs can be drawn. A known value that all elements share is one.
         """
 
         def trial(owner: Any, share: Any, rows: Any) -> tuple[list[Any], Any, Any]:
             tried = self.valued(share[:, None], scales[owner])
-            return [array[owner] for array in known], tried, rows
+            here = [
+                np.broadcast_to(array, owner.size) if len(array) == 1 else array[owner]
+                for array in known
+            ]
+            return here, tried, rows
 
         def alike(owner: Any) -> Any:
             return np.broadcast_to(np.array(signs, dtype=float), (owner.size, len(signs)))
