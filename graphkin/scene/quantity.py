@@ -7,7 +7,6 @@ import re
 from collections.abc import Mapping
 from decimal import Context, Decimal
 from fractions import Fraction
-from functools import cache
 from typing import Any
 
 from msgspec import Struct
@@ -56,7 +55,7 @@ TURNS = {"rad": (Fraction(1), False), "deg": (Fraction(1, 180), True)}
 
 
 def si_factors() -> dict[str, tuple[Fraction, bool]]:
-    """The size of each unit of motion in metres, radians and seconds, and whether pi multiplies it.
+    """The size of each unit in metres, radians and seconds, and whether pi multiplies it.
 
     A unit such as mm|in is computed in inches, not in metres.
     """
@@ -64,11 +63,10 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     for base, metres in LENGTHS.items():
         bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
     rates = {f"{unit}/{s}": each for s in ("s", "s²", "s³") for unit, each in bases.items()}
-    others = dict.fromkeys(("", "s"), (Fraction(1), False))
+    others = dict.fromkeys(("", "s"), (Fraction(1), False)) | mechanical_factors()
     return bases | rates | others | {"rev/min": (Fraction(1, 30), True)}
 
 
-@cache
 def mechanical_factors() -> dict[str, tuple[Fraction, bool]]:
     """The size of each unit of forces, moments, masses, inertias and stiffnesses.
 
@@ -92,11 +90,6 @@ def mechanical_factors() -> dict[str, tuple[Fraction, bool]]:
 def force_in(base: str) -> Fraction:
     """The unit of forces in newtons that goes with a unit of lengths."""
     return FORCES["lbf" if base in IMPERIAL else "N"]
-
-
-def size_in_si(unit: str) -> tuple[Fraction, bool]:
-    """The size of a unit in SI units, and whether pi multiplies it."""
-    return SI[unit] if unit in SI else mechanical_factors()[unit]
 
 
 SI = si_factors()
@@ -163,7 +156,7 @@ class Quantity(Struct, frozen=True, eq=False):
 
     def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
         """The value in metres, radians and seconds, exact up to a final conversion to the kind."""
-        factor, of_pi = size_in_si(self.unit)
+        factor, of_pi = SI[self.unit]
         value = self.number(values, kind)
         if isinstance(value, Fraction):
             real = kind.number(value * factor)
@@ -194,7 +187,7 @@ class Quantity(Struct, frozen=True, eq=False):
             return 0.0
         if self.unit == "rad" and isinstance(value, Fraction):
             error = UNIT * abs(kind.number(value))
-        factor, of_pi = size_in_si(self.unit)
+        factor, of_pi = SI[self.unit]
         return error * float(factor) * (kind.pi if of_pi else 1)
 
     def written(self, values: Mapping[str, Any]) -> str:
