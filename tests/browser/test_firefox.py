@@ -182,8 +182,13 @@ def test_a_plan_is_drawn_on_the_board_of_a_task_and_kept(firefox, tmp_path):
     assert firefox.run("return document.documentElement.scrollWidth <= innerWidth")
 
 
-def test_a_turn_outlives_its_page(firefox, pump):
-    """A right line, a wrong one with what would come of it, and the page opened again."""
+def test_a_turn_outlives_its_page(firefox, tmp_path):
+    """A right line, a wrong one with what would come of it, and the page opened again.
+
+    Equal pages share the turn that they keep, so that its data are its own.
+    """
+    pump = tmp_path / "pump-n3.html"
+    pump.write_text(step_page(load("pump", n=3), "en"), encoding="utf-8")
     firefox.open(pump, "#step=6", (1280, 720), "still")
     firefox.run("document.getElementById('turn').click()")
     type_lines(firefox, "perp O2B o\npar AB a")
