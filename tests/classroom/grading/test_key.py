@@ -83,7 +83,7 @@ def chances(name: str, pencil: float) -> dict[str, list[float]]:
 
 @pytest.mark.parametrize("name", LABS)
 def test_a_careful_pencil_passes_every_field_in_95_of_100_drawings_and_a_coarse_one_fewer(name):
-    lucky = 0.95 - 3 * (0.95 * 0.05 / DRAWINGS) ** 0.5
+    lucky = 0.95 - 4 * (0.95 * 0.05 / DRAWINGS) ** 0.5  # the least of 200 shares
     for field, shares in chances(name, CAREFUL).items():
         assert np.mean(shares) >= 0.95, field
         assert min(shares) >= lucky, (field, shares)
