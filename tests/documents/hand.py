@@ -78,6 +78,8 @@ class Hand:
     """The points of links that were moved in steps until they closed."""
     frame: dict[str, complex] = field(default_factory=dict)
     """The fixed points of the data, in mm of the mechanism."""
+    own: dict[str, dict[str, complex]] = field(default_factory=dict)
+    """The points of links in their own axes, as printed, in mm of the mechanism."""
     faces: dict[str, complex] = field(default_factory=dict)
     """The directions of faces of cams' followers, by the blocks that stand for contacts on them."""
     ahead: list[str] = field(default_factory=list)
@@ -108,11 +110,18 @@ class Hand:
 
     def __post_init__(self) -> None:
         self.items = re.split(r"; (?![^(]*\))", self.data)
+        given = {}
         for item in self.items:
             if match := re.fullmatch(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\) (mm|cm|m)", item):
                 unit = MILLIMETRES[match[4]]
-                where = complex(number(match[2]), number(match[3])) * unit
-                self.frame[canonical(match[1])] = where
+                given[match[1]] = complex(number(match[2]), number(match[3])) * unit
+        for item in self.items:
+            if match := re.fullmatch(r"(.*): in the axes of link (\w+)", item):
+                self.own[match[2]] = {
+                    name.replace(f",{match[2]}}}", "}"): given.pop(name)
+                    for name in match[1].split(", ")
+                }
+        self.frame = {canonical(name): where for name, where in given.items()}
         anchor = next((name for name in self.frame if name in self.place), None)
         if anchor:
             self.origin = self.place[anchor] - self.frame[anchor] / self.scale
@@ -146,13 +155,9 @@ class Hand:
             except DefectError:
                 continue
             return number(value) * MILLIMETRES[unit] / self.scale
-        for item in self.items:
-            own = dict(re.findall(rf"({NAME}) \(({NUMBER}[;,] {NUMBER})\)", item))
-            if "in the axes of link" in item and p in own and q in own:
-                unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]
-                ends = (complex(*map(number, re.split("[;,] ", own[end]))) for end in (p, q))
-                one, two = ends
-                return abs(two - one) * unit / self.scale
+        for own in self.own.values():
+            if p in own and q in own:
+                return abs(own[q] - own[p]) / self.scale
         return abs(self.at(q) - self.at(p))
 
     def angle(self, text: str) -> float:

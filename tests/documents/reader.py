@@ -192,14 +192,9 @@ class Reader(Trials):
 
     def own_points(self, k: str) -> dict[str, complex]:
         """The points of a link in its own axes, as the data give them, in mm of paper."""
-        item = next((i for i in self.items if i.endswith(f"in the axes of link {k}")), None)
-        if item is None:
+        if k not in self.own:
             raise DefectError(f"the points of link {k} are not given")
-        unit = MILLIMETRES[re.search(r"\) (mm|cm|m),", item)[1]]
-        return {
-            one: complex(number(x), number(y)) * unit / self.scale
-            for one, x, y in re.findall(rf"({NAME}) \(({NUMBER})[;,] ({NUMBER})\)", item)
-        }
+        return {name: where / self.scale for name, where in self.own[k].items()}
 
     @says("on it lay off ⟨p⟩⟨q⟩: ⟨name⟩")
     def mark_off(self, p: str, q: str, name: str) -> None:
