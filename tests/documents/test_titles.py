@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 
 import pytest
 from msgspec.structs import replace
@@ -24,6 +25,8 @@ PAPERS = (("A3", "ISO"), ("A4", "ISO"), ("A3", "GOST"), ("ANSI B", "ISO"))
 """A paper for each shape of the title block and of the title above the data."""
 WHOLE = ("positions", "velocity_plans", "acceleration_plans", "force_plans", "differentiation")
 """Kinds of sheets of a whole motion, whose titles are longest."""
+APART = 0.35
+"""The least distance of a title from its label and from the edges of its cell, in mm."""
 FILES = (*sorted(shelf().glob(f"*/{SCENE}")), *sorted(FOLDER.glob("*.toml")))
 
 
@@ -53,14 +56,18 @@ def within(marks: list[Mark], left: float, top: float, right: float, low: float)
 
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize(("paper", "frame"), PAPERS)
-def test_a_title_fits_its_cell_in_every_language(paper, frame, language):
-    own = paper_of(paper, frame).frame
+def test_a_title_fits_its_cell_below_the_label_in_every_language(paper, frame, language):
+    own, label = paper_of(paper, frame).frame, words(language)("block.title")
     for scene in shipped_scenes():
-        block = TitleBlock(title=scene.titles[language], frame=own)
-        (rect,) = (rect for name, rect, _ in cells_of(block) if name == "title")
-        said = [mark for mark in title_block_marks(block, 0, 0) if mark.name == "title"]
-        assert within(said, *rect), scene.name
+        block = TitleBlock(title=scene.titles[language], frame=own, labels={"title": label})
+        ((left, top, right, low),) = (rect for name, rect, _ in cells_of(block) if name == "title")
+        marks = [mark for mark in title_block_marks(block, 0, 0) if isinstance(mark, Text)]
+        said = [mark for mark in marks if mark.name == "title"]
+        heads = [reach(mark)[3] for mark in marks if mark.markup == label and not mark.name]
+        assert within(said, left, max([top, *heads]) + APART, right, low - APART), scene.name
         assert min(mark.height for mark in said) >= LETTERS, scene.name
+        for first, second in pairwise(said):
+            assert reach(second)[1] - reach(first)[3] > 0, scene.name
 
 
 def titled(scene: Scene, language: str, paper: str, frame: str) -> Drawing:
