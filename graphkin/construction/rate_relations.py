@@ -23,6 +23,7 @@ from graphkin.construction.core.naming import (
     driver_of_rate,
     length_scale,
     rate_symbol,
+    scale_unit,
     sense,
     speed_symbol,
     stated_scale,
@@ -33,6 +34,7 @@ from graphkin.construction.core.program import Plane
 from graphkin.construction.core.quantities import RATES, number_of, unit_words
 from graphkin.construction.core.relation import (
     FINE,
+    ROOM,
     Relation,
     answer,
     figure,
@@ -48,7 +50,6 @@ from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.scene.model import FRAME, Angled, Belt, Driver
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
-from graphkin.text import IMPERIAL
 
 
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
@@ -354,14 +355,16 @@ def of_pin(
 def of_scales(drawing: Drawing) -> Iterator[Relation]:
     """kL, kv and ka, and the drawn length of the driven bar."""
     words, scales = drawing.words, drawing.scales
-    number = length_scale(drawing)
+    number, stated = length_scale(drawing), scale_unit(words)
+    drawn = words.unit("m/mm")
     yield Relation(
         drawing.in_signs("*k*_L"),
         "",
-        stated_scale(drawing) if words.length in IMPERIAL else "",
+        stated_scale(drawing) if stated != drawn else "",
         number,
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),
+        blank=(f"{ROOM} {stated}", f"= {ROOM} {drawn}") if stated != drawn else (),
     )
     yield from by_cosines(drawing)
     for name, length in drawn_bars(drawing):

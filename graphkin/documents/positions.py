@@ -369,7 +369,8 @@ def travel_row(found: PositionSet) -> list[ValueRow]:
     if len(guides) < len(some):
         return []
     ways = [drawing.length(float(each) - travel.low.value) for each in guides]
-    head = f"{drawing.symbol(f's_{travel.name}')} ({drawing.scene.units['length']})"
+    unit = drawing.words.spelled(drawing.scene.units["length"])
+    head = f"{drawing.symbol(f's_{travel.name}')} ({unit})"
     return [ValueRow(head, ways)]
 
 

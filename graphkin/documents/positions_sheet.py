@@ -617,10 +617,10 @@ def places_table(
     top += 4
     unit = "°" if sweep.what == "turn" else sweep.original.units["length"]
     if sweep.driver is None:
-        head_of = "*t* (s)"
+        head_of = f"*t* ({words.spelled('s')})"
     else:
         name = angle_symbol(sweep.original, sweep.driver)
-        head_of = f"{name} ({unit})"
+        head_of = f"{name} ({words.spelled(unit)})"
     names, values = [each.name for each in some], numbers_of(found)
     lines = flowed(said, words("clause_mark"), right - left, 2.5)
     widest = PAD + max(extent(each, 2.5)[0] for each in (*names, *values))

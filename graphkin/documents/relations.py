@@ -33,6 +33,7 @@ from graphkin.construction.core.quantities import (
     request,
 )
 from graphkin.construction.core.relation import (
+    ROOM,
     Relation,
     VectorEquation,
     answer,
@@ -202,8 +203,6 @@ def group_words(words: Words, group: Group, unseen: frozenset[str] = frozenset()
 
 Bar = tuple[str, str]
 Section = tuple[str, list[Relation]]
-ROOM = ". . . . . . . ."
-"""Room to write a coordinate in."""
 
 
 def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Section]:

@@ -18,7 +18,13 @@ from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data
 from graphkin.construction.core.kind import PlanPole, Sentence, construction
 from graphkin.construction.core.layout import Layout, lay_out, lowered, spare_height
-from graphkin.construction.core.naming import has_plan, name_of_sheet, scale_of, stated_scale
+from graphkin.construction.core.naming import (
+    has_plan,
+    name_of_sheet,
+    scale_of,
+    scale_unit,
+    stated_scale,
+)
 from graphkin.construction.core.paper_canvas import (
     PaperCanvas,
     Plot,
@@ -126,9 +132,7 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     A task leaves a factor open unless it states the factor itself.
     """
     words, scales, task = drawing.words, drawing.scales, view == "task"
-    kL = stated_scale(drawing)
-    if task:
-        kL = f"{BLANK} {kL.split()[-1]}"
+    kL = f"{BLANK} {scale_unit(words)}" if task else stated_scale(drawing)
     if kind == FORCE:
         above = words("page.loads_heading", scale=words.decimal(scales.words), kL=kL)
         return above, words("page.force_heading", k=figure(drawing, scales.kF / 1000))

@@ -29,7 +29,7 @@ from graphkin.text.errors import PageError, message
 
 BAND, FIELD = 5.0, 50.0  # grid border's width, field length
 LETTERS = "ABCDEFGHJKLM"  # without I and O
-LEADING, CLOSER = 1.7, 1.5  # line spacing in heights of capitals, and that of a header
+LEADING, CLOSER = 1.55, 1.5  # line spacing in heights of capitals, and that of a header
 CLOSE = 3.0  # distance of two lines at the head of an A4 page, in mm
 LABEL, UNDER = 3.4, 1.7  # a cell's baselines: label below the top, value above the bottom
 DESCENT = 0.45  # the same of large values, in their heights: p and g stay clear of the line

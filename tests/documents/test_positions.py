@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from cmath import rect
 from collections.abc import Iterator
 from functools import cache
@@ -15,6 +16,7 @@ from msgspec.structs import replace
 from graphkin.documents.positions_plans import usual
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
+from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import Extent
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.cycle import cycle
@@ -200,6 +202,20 @@ def test_a_sheet_stays_within_its_frame_in_every_language(name: str, language: s
     for page in pages(mechanism_named(name), language).values():
         page.check()
         assert page.lang == language
+
+
+@pytest.mark.parametrize("name", ["shaper", "five-bar", "rapid-return-slider"])
+def test_units_in_russian_tables_of_positions_are_in_cyrillic_letters(name: str):
+    """GOST 8.417-2002, for a driver that turns, for time and for one that slides."""
+    heads = [
+        plain(mark.markup)
+        for page in pages(mechanism_named(name), "ru").values()
+        for mark in page.marks
+        if isinstance(mark, Text) and mark.name == "positions"
+    ]
+    units = [unit for head in heads for unit in re.findall(r"\((.*)\)$", head)]
+    assert units
+    assert not [unit for unit in units if re.search("[A-Za-z]", unit)]
 
 
 def test_followers_are_turned_back_on_the_cam_by_its_angle():

@@ -141,6 +141,16 @@ def test_relations_follow_from_their_figures_in_inches() -> None:
     assert "OA/kL = 2/0.0393701 = 50.8 mm (drawn)" in found
 
 
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_a_task_leaves_room_for_the_scale_as_its_caption_states_it(language: str) -> None:
+    """In inches per inch of paper, then per millimetre, which the next lines take."""
+    found = texts(Mechanism(read_text(INCHES, "x")), "task", language)
+    own, drawn = map(words(language).spelled, ("in/in", "in/mm"))
+    assert any(re.search(rf"\(kL = [. ]+ {own}[\s;)]", each) for each in found)
+    (line,) = (each for each in found if each.startswith("kL = "))
+    assert re.fullmatch(rf"kL = [. ]+ {own} = [. ]+ {drawn}", line)
+
+
 def test_a_page_for_the_screen_has_inches() -> None:
     page = step_page(Mechanism(read_text(INCHES, "x")), "en")
     assert "in/s" in page
@@ -179,6 +189,8 @@ def test_solve_prints_inches_and_its_json_si(run: Run, tmp_path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text(INCHES, encoding="utf-8")
     assert "v, in/s" in run("solve", path).output
+    assert "scale    kL = 1 in/in, drawn 1 : 1" in run("solve", path).output
+    assert "scale    kL = 1, drawn 1 : 1" in run("solve", path, "--units", "SI").output
     assert "v, m/s" in run("solve", path, "--units", "SI").output
     si = json.loads(run("solve", path, "--json").output)
     own = json.loads(run("solve", path, "--json", "--units", "scene").output)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from graphkin.construction.core.kind import ClosesGroup, construction
+from graphkin.construction.core.naming import scale_unit
 from graphkin.construction.core.pen import image, letter, second_image
 from graphkin.construction.core.program import Part, Program
 from graphkin.construction.core.quantities import (
@@ -46,7 +47,7 @@ from graphkin.numbers.plane import Ratio
 from graphkin.scene.link_points import ends_of, is_under
 from graphkin.scene.model import Scene
 from graphkin.structure.pairs import name_words
-from graphkin.text import Words, words
+from graphkin.text import IMPERIAL, Words, words
 from graphkin.text.tables import Cell, cleaned, listed, number, table
 
 if TYPE_CHECKING:
@@ -388,7 +389,8 @@ def scale_lines(scales: Mapping[str, float | None], spoken: Words = SPOKEN) -> l
     kL, kv, ka = scales["kL"], scales["kv"], scales["ka"]
     assert kL is not None
     drawn = f"1 : {kL:g}" if kL >= 1 else f"{1 / kL:g} : 1"
-    lines = [f"scale    kL = {kL:g}, drawn {drawn}"]
+    unit = f" {scale_unit(spoken)}" if spoken.length in IMPERIAL else ""
+    lines = [f"scale    kL = {kL:g}{unit}, drawn {drawn}"]
     if kv is None or ka is None:
         return lines
     v, a = spoken.unit("m/s"), spoken.unit("m/s²")

@@ -93,13 +93,19 @@ def length_scale(drawing: Drawing) -> str:
     return drawing.words.decimal(digits(scale) if exact else f"{scale:.6g}")
 
 
-def stated_scale(drawing: Drawing) -> str:
-    """kL with its unit: per millimetre of paper, but per inch or foot of paper in these units."""
-    words = drawing.words
+def scale_unit(words: Words) -> str:
+    """The unit of a stated kL: per millimetre of paper, but per inch or foot in these units."""
     if words.length in IMPERIAL:
-        unit = words.spelled(f"{words.length}/{words.length}")
-        return f"{words.decimal(digits(drawing.scales.kL * drawing.scales.metre))} {unit}"
-    return f"{length_scale(drawing)} {words.unit('m/mm')}"
+        return words.spelled(f"{words.length}/{words.length}")
+    return words.unit("m/mm")
+
+
+def stated_scale(drawing: Drawing) -> str:
+    """kL with its unit."""
+    words, scales = drawing.words, drawing.scales
+    imperial = words.length in IMPERIAL
+    number = words.decimal(digits(scales.kL * scales.metre)) if imperial else length_scale(drawing)
+    return f"{number} {scale_unit(words)}"
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:

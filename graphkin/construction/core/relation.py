@@ -68,6 +68,10 @@ FINE = 6
 """Significant digits of rates in sums, whose digits may cancel."""
 
 
+ROOM = ". . . . . . . ."
+"""Room to write a number in, where a form has room for more than one."""
+
+
 class Relation(Struct, frozen=True):
     """left = symbols = figures = result unit, remark; ``more`` holds further words after ``left``.
 
