@@ -13,6 +13,7 @@ from graphkin.cli.folder_options import FolderType, class_argument, folder_optio
 from graphkin.cli.options import (
     FAILED,
     READING,
+    command,
     complain,
     current,
     force_option,
@@ -166,7 +167,7 @@ def new_house(folder: Path, own: bool, force: bool) -> None:
     tell(map(str, write_all(place, {HOUSE: template().encode()}, force)))
 
 
-@click.command()
+@command()
 @click.argument("name", metavar="LAB")
 @click.argument("roster", metavar="ROSTER", type=click.Path(path_type=Path))
 @folder_option("Folder of the class, made if it is missing.", required=True)
@@ -255,7 +256,7 @@ SHOWN = 5
 """The most unfair variants that are listed."""
 
 
-@click.command("quiz")
+@command("quiz")
 @click.argument("name", metavar="LAB")
 @output_option
 @language_option
@@ -353,7 +354,7 @@ def quiz(
 # --- ``graphkin ranges``: where in the space of its parameters a lab is fair ----------------------
 
 
-@click.command()
+@command()
 @click.argument("name", metavar="LAB")
 @click.option("-o", "--output", "folder", metavar="DIR", type=FolderType(path_type=Path))
 @house_option

@@ -11,6 +11,7 @@ import click
 from graphkin.cli.folder_options import output_option
 from graphkin.cli.options import (
     FAILED,
+    command,
     complain,
     force_option,
     formats_option,
@@ -35,7 +36,7 @@ if TYPE_CHECKING:
     from graphkin.text.tables import Cell
 
 
-@click.command()
+@command()
 @scene_argument
 @output_option
 @click.option(
@@ -112,7 +113,7 @@ def sheet(
         complain(note)
 
 
-@click.command()
+@command()
 @scene_argument
 @output_option
 @click.option(
@@ -275,7 +276,7 @@ def table_files(
     return files
 
 
-@click.command()
+@command()
 @scene_argument
 @output_option
 @click.option(

@@ -8,6 +8,7 @@ import click
 
 from graphkin.cli.options import (
     READING,
+    command,
     complain,
     current,
     force_option,
@@ -20,7 +21,7 @@ from graphkin.cli.options import (
 UNITS = ("mm", "cm", "m", "in")
 
 
-@click.command("import")
+@command("import")
 @click.argument("given", metavar="FILE|LINK")
 @click.option(
     "-o",
@@ -103,7 +104,7 @@ def guides(slides: tuple[str, ...]) -> dict[str, str]:
     return found
 
 
-@click.command()
+@command()
 @scene_argument
 @click.option(
     "--to",

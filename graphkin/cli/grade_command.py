@@ -13,6 +13,7 @@ import click
 from graphkin.cli.folder_options import class_argument
 from graphkin.cli.options import (
     FAILED,
+    command,
     complain,
     formats_option,
     jobs_option,
@@ -43,7 +44,7 @@ SHOWN = 10
 """The most notes of one kind that are printed."""
 
 
-@click.command("grade")
+@command("grade")
 @class_argument
 @click.argument("answers", metavar="ANSWERS", type=click.Path(path_type=Path))
 @click.option(

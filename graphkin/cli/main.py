@@ -11,6 +11,7 @@ from graphkin import __version__
 from graphkin.cli.options import (
     FAILED,
     CommandGroup,
+    command,
     complain,
     eager_option,
     leave,
@@ -111,7 +112,7 @@ def app(context: click.Context) -> None:
         click.echo(context.get_help())
 
 
-@click.command("list")
+@command("list")
 @click.option("--scenes", is_flag=True, help="List the names and titles of all scenes instead.")
 def list_labs(scenes: bool) -> None:
     """List the labs and scenes that come with graphkin.
@@ -129,7 +130,7 @@ def list_labs(scenes: bool) -> None:
     tell(scenes_lines() if scenes else labs_lines())
 
 
-@click.command()
+@command()
 @scene_argument
 def check(name: str, settings: tuple[str, ...]) -> None:
     """Check a scene and show how its mechanism is put together.
@@ -170,7 +171,7 @@ def check(name: str, settings: tuple[str, ...]) -> None:
         leave(FAILED)
 
 
-@click.command()
+@command()
 @scene_argument
 @click.option("--json", "as_json", is_flag=True, help="Print JSON, times in seconds.")
 def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
@@ -197,7 +198,7 @@ def explain(name: str, settings: tuple[str, ...], as_json: bool) -> None:
         tell(explain_lines(found))
 
 
-@click.command()
+@command()
 @scene_argument
 @click.option(
     "--asked", is_flag=True, help="Compute and report only what [ask] in the scene asks for."
@@ -437,7 +438,7 @@ def doubts(
     return flat or verdict is None or not verdict.agrees or unsure
 
 
-@click.command()
+@command()
 @click.argument("language", type=click.Choice(LANGUAGES), required=False)
 @click.option(
     "--missing",

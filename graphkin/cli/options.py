@@ -91,6 +91,11 @@ def eager_option(*names: str, help: str, what: Callable[[click.Context], str]) -
     )
 
 
+def command(name: str | None = None) -> Callable[[Callable[..., Any]], Command]:
+    """Make a function a command, of its own name by default."""
+    return click.command(name, cls=Command)
+
+
 SHORT = 120
 """The most characters of a command's first sentence in the list of commands."""
 

@@ -13,6 +13,7 @@ import click
 
 from graphkin.cli.folder_options import FolderType
 from graphkin.cli.options import (
+    command,
     current,
     force_option,
     lang_option,
@@ -72,7 +73,7 @@ NEEDED = ("bottle", "tomlkit", "waitress")
 """The packages of the extra [studio]."""
 
 
-@click.command()
+@command()
 @click.argument("name", metavar="[SCENE]", required=False, default="")
 @port_option
 @browser_option
@@ -117,7 +118,7 @@ INDENT = 12
 """The column in which the meaning of a key begins."""
 
 
-@click.command()
+@command()
 @click.option(
     "--write",
     metavar="DIR",
@@ -167,7 +168,7 @@ def manual(write: Path | None, moving: bool, no_browser: bool, force: bool) -> N
         webbrowser.open(address)
 
 
-@click.command("help")
+@command("help")
 @click.argument("key", metavar="[KEY]", required=False, default="")
 def help_on(key: str) -> None:
     """Explain a key of a scene or of a lab, or a command.

@@ -13,6 +13,7 @@ import click
 from graphkin.cli.folder_options import class_argument, folder_option
 from graphkin.cli.options import (
     FAILED,
+    command,
     complain,
     formats_option,
     ink_option,
@@ -37,7 +38,7 @@ TENTHS = 10
 """The number of progress lines of a run without a terminal."""
 
 
-@click.command("print")
+@command("print")
 @class_argument
 @click.option(
     "--view",
@@ -194,7 +195,7 @@ MOST_PLACES = 10_000
 """The most places of a grid."""
 
 
-@click.command("read")
+@command("read")
 @click.argument("folder", metavar="CLASS", type=click.Path(path_type=Path))
 @click.argument(
     "photos", metavar="PHOTOS…", nargs=-1, required=True, type=click.Path(path_type=Path)
@@ -300,7 +301,7 @@ def read_grid(path: Path | None) -> Grid:
     return grid
 
 
-@click.command("desk")
+@command("desk")
 @click.argument("folder", metavar="FOLDER", type=click.Path(path_type=Path))
 @port_option
 @browser_option

@@ -53,7 +53,7 @@ from graphkin.drawing.symbol_markup import bar, escape, symbol, without_index
 from graphkin.scene.forces import ByDriver, Components, Directed, Load, Size
 from graphkin.scene.link_points import ends_of, lettered
 from graphkin.scene.model import Link, Scene
-from graphkin.scene.quantity import SI, Quantity
+from graphkin.scene.quantity import Quantity, size_in_si
 from graphkin.text import names_in
 
 
@@ -426,7 +426,7 @@ def worked(drawing: Drawing, quantity: Quantity, unit: str) -> str:
     ``unit`` is its unit in newtons, kilograms and metres.
     """
     said = quantity_text(drawing.scene, drawing.words, quantity)
-    if SI[quantity.unit][0] == 1:
+    if size_in_si(quantity.unit)[0] == 1:
         return said
     value = float(quantity.si(drawing.scene.values))
     return f"{said} = {figure(drawing, value)} {drawing.words.unit(unit)}"
@@ -434,7 +434,7 @@ def worked(drawing: Drawing, quantity: Quantity, unit: str) -> str:
 
 def worked_pair(drawing: Drawing, pair: Components, unit: str) -> str:
     """Two components after a sign of equality in the unit of results, where that is another one."""
-    if SI[pair[0].unit][0] == 1:
+    if size_in_si(pair[0].unit)[0] == 1:
         return ""
     x, y = (figure(drawing, float(each.si(drawing.scene.values))) for each in pair)
     return f" = {drawing.words.place(x, y)} {drawing.words.unit(unit)}"

@@ -54,7 +54,6 @@ from graphkin.loops.rigid_bodies import (
     unit,
 )
 from graphkin.numbers.arithmetic import Point, Real
-from graphkin.numbers.dual_numbers import Dual, rate_of
 from graphkin.scene.model import FRAME, LEADING, Driver, Scene
 from graphkin.scene.wheels import angle_less_cycles as whole_turned
 from graphkin.text.errors import Problem, StructureError, message
@@ -92,6 +91,8 @@ class Lift(Struct, frozen=True, eq=False):
 
     def third(self, unknowns: Reals) -> Reals:
         """The third derivative of the law by the cam's angle or coordinate: (N,)."""
+        from graphkin.numbers.dual_numbers import Dual, rate_of
+
         place = self.of(unknowns)
         if self.law.cam.slides:
             moved = Dual(place, np.ones_like(place))

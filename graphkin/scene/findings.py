@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from string import ascii_letters
 
 from graphkin.text import paths
 from graphkin.text.errors import (
@@ -28,6 +29,10 @@ SHORT = 2
 DIGITS = "0123456789"
 COMBINING = "\u0300"
 """The first combining character: a text with only lower code points is already composed (NFC)."""
+CYRILLIC = "\u0400", "\u0482"
+"""The first and the last letter of Cyrillic before its combining characters: all are composed."""
+BARE = frozenset(f"{ascii_letters}{DIGITS}-_")
+"""The characters of a bare key of TOML."""
 
 
 class Findings:
@@ -156,7 +161,8 @@ def plain_text(place: str, raw: object, findings: Findings) -> str:
     if not isinstance(raw, str):
         findings.add(place, shown(raw), message("a text in quotes"))
         return ""
-    if raw.isprintable() and all(letter < COMBINING for letter in raw):
+    first, last = CYRILLIC
+    if raw.isprintable() and all(c < COMBINING or first <= c <= last for c in raw):
         return raw
     import unicodedata
 
@@ -282,8 +288,7 @@ def shown(raw: object) -> Message:
 
 def shown_key(key: str) -> str:
     """A key as an error shows it, in quotes unless it is a bare key."""
-    bare = key.isascii() and all(c.isalnum() or c in "-_" for c in key) and key
-    return key if bare and len(key) <= 60 else f'"{visible(key)}"'
+    return key if 0 < len(key) <= 60 and BARE.issuperset(key) else f'"{visible(key)}"'
 
 
 def visible(text: str) -> str:

@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping
 from decimal import Context, Decimal
 from fractions import Fraction
+from functools import lru_cache
 from typing import Any
 
 from msgspec import Struct
@@ -55,7 +56,7 @@ TURNS = {"rad": (Fraction(1), False), "deg": (Fraction(1, 180), True)}
 
 
 def si_factors() -> dict[str, tuple[Fraction, bool]]:
-    """The size of each unit in metres, radians and seconds, and whether pi multiplies it.
+    """The size of each unit of motion in metres, radians and seconds, and whether pi multiplies it.
 
     A unit such as mm|in is computed in inches, not in metres.
     """
@@ -63,10 +64,11 @@ def si_factors() -> dict[str, tuple[Fraction, bool]]:
     for base, metres in LENGTHS.items():
         bases |= {f"{unit}{IN}{base}": (each / metres, False) for unit, each in LENGTHS.items()}
     rates = {f"{unit}/{s}": each for s in ("s", "s²", "s³") for unit, each in bases.items()}
-    others = dict.fromkeys(("", "s"), (Fraction(1), False)) | mechanical_factors()
+    others = dict.fromkeys(("", "s"), (Fraction(1), False))
     return bases | rates | others | {"rev/min": (Fraction(1, 30), True)}
 
 
+@lru_cache(maxsize=1)
 def mechanical_factors() -> dict[str, tuple[Fraction, bool]]:
     """The size of each unit of forces, moments, masses, inertias and stiffnesses.
 
@@ -93,6 +95,19 @@ def force_in(base: str) -> Fraction:
 
 
 SI = si_factors()
+"""The sizes of the units of motion, which every scene has."""
+
+
+def has_size(unit: str) -> bool:
+    """Whether a text is a unit of motion or of mechanics, whose size is known."""
+    return unit in SI or unit in mechanical_factors()
+
+
+def size_in_si(unit: str) -> tuple[Fraction, bool]:
+    """The size of a unit of motion or of mechanics in SI units, and whether pi multiplies it."""
+    return SI[unit] if unit in SI else mechanical_factors()[unit]
+
+
 SHOWN = 12
 """Significant digits of a non-terminating decimal."""
 ENDING = 17
@@ -156,7 +171,7 @@ class Quantity(Struct, frozen=True, eq=False):
 
     def si(self, values: Mapping[str, Any], kind: Kind = FLOAT) -> Real:
         """The value in metres, radians and seconds, exact up to a final conversion to the kind."""
-        factor, of_pi = SI[self.unit]
+        factor, of_pi = size_in_si(self.unit)
         value = self.number(values, kind)
         if isinstance(value, Fraction):
             real = kind.number(value * factor)
@@ -187,7 +202,7 @@ class Quantity(Struct, frozen=True, eq=False):
             return 0.0
         if self.unit == "rad" and isinstance(value, Fraction):
             error = UNIT * abs(kind.number(value))
-        factor, of_pi = SI[self.unit]
+        factor, of_pi = size_in_si(self.unit)
         return error * float(factor) * (kind.pi if of_pi else 1)
 
     def written(self, values: Mapping[str, Any]) -> str:

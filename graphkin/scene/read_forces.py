@@ -19,7 +19,7 @@ from graphkin.scene.phrases import (
     link_name,
     point_name,
 )
-from graphkin.scene.quantity import SI, STANDARD_GRAVITY, Quantity, exact
+from graphkin.scene.quantity import STANDARD_GRAVITY, Quantity, exact, size_in_si
 from graphkin.text.errors import Message, message
 
 GRAVITY = "9.81"
@@ -98,7 +98,7 @@ def gravity(top: Table, measures: Measures) -> Components | None:
     if raw is None or raw is False:
         return None
     unit = measures.mechanical("m/s²")
-    g = Fraction(GRAVITY) if unit == "m/s²" else STANDARD_GRAVITY / SI[unit][0]
+    g = Fraction(GRAVITY) if unit == "m/s²" else STANDARD_GRAVITY / size_in_si(unit)[0]
     if raw is True:
         return exact(0, unit), exact(-g, unit, "gravity")
     if not isinstance(raw, list):

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from unicodedata import category, normalize
+
 import pytest
 import tomlkit
 
 from graphkin.documents.sheet_documents import hand_out
 from graphkin.drawing.marks import Text
 from graphkin.mechanism import Mechanism
+from graphkin.scene.findings import Findings, plain_text
 from graphkin.scene.read_scene import read_text
 from graphkin.text.errors import SceneError
 from tests.scene_files import scene_text
@@ -75,3 +78,12 @@ def test_a_parameter_has_no_name_that_an_expression_cannot_hold(name):
     text = f"{SCENE}\n[parameters]\n{name} = 2\n"
     with pytest.raises(SceneError, match=rf"parameters\.{name}: {name} has a meaning of its own"):
         scene(text)
+
+
+def test_every_text_is_composed_or_refused_as_the_tables_of_unicode_say():
+    for each in map(chr, range(0x3000)):
+        for raw in (each, f"e{each}", f"\u0438\u0306{each}"):
+            control = each not in "\n\t" and category(each) in ("Cc", "Cf", "Cs")
+            found = Findings()
+            assert plain_text("title", raw, found) == ("" if control else normalize("NFC", raw))
+            assert bool(found.problems) == control

@@ -42,7 +42,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene.house import PLAIN, House
 from graphkin.scene.model import Parameter
 from graphkin.scene.parameters import out_of_range
-from graphkin.scene.quantity import SI, Quantity, shortest
+from graphkin.scene.quantity import Quantity, has_size, shortest, size_in_si
 from graphkin.scene.read_scene import read_scene
 from graphkin.text.errors import Problem, SceneError, message
 
@@ -307,7 +307,9 @@ class Item(Struct, frozen=True, dict=True):
     @cached_property
     def one(self) -> float:
         """One of its unit as it is marked: in SI, but lengths on paper in mm."""
-        return float(SI[self.unit][0]) if self.unit in SI and self.unit != "mm" else 1.0
+        if self.unit == "mm" or not has_size(self.unit):
+            return 1.0
+        return float(size_in_si(self.unit)[0])
 
     def beside(self, what: What, axis: str = "") -> str:
         """The name of another field of the same quantity."""

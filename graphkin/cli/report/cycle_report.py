@@ -21,7 +21,7 @@ from graphkin.construction.core.quantities import (
 from graphkin.numbers.arithmetic import np
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import Closure
-from graphkin.scene.quantity import SI
+from graphkin.scene.quantity import size_in_si
 from graphkin.text import words
 from graphkin.text.tables import Cell, csv_text, labelled, listed
 
@@ -185,7 +185,7 @@ def at_words(sweep: Sweep, at: float, name: bool = True) -> str:
 def length_words(sweep: Sweep, value: float) -> str:
     """A length in the scene's unit."""
     unit = sweep.original.units["length"]
-    size = value / float(SI[unit][0])
+    size = value / float(size_in_si(unit)[0])
     return f"{short(size if abs(size) > NOTHING else 0.0)} {unit}"
 
 
@@ -480,7 +480,7 @@ def in_results(cycle: Cycle, value: float, unit: str) -> str:
     if unit == "°":
         return f"{value:.3f}°"
     own = words("en", length=cycle.scene.unit_of_results).unit(unit)
-    size = value if own == unit else value / float(SI[own][0])
+    size = value if own == unit else value / float(size_in_si(own)[0])
     return f"{short(size)} {own}".rstrip()
 
 

@@ -106,8 +106,9 @@ class Drawing(Struct, frozen=True, dict=True):
 
     def steps(self, *planes: Plane) -> Iterator[tuple[int, Step, Any]]:
         """The executed steps of some planes, in order, with their values."""
+        steps = self.trace.program.steps
         for number, value in self.trace.values.items():
-            step = self.trace.program.steps[number]
+            step = steps[number]
             if step.plane in planes:
                 yield number, step, value
 
