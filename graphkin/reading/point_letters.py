@@ -33,6 +33,8 @@ SMALLEST, LARGEST = 0.8, 6.0
 """The least and the most height or width of a letter, in mm."""
 JOINED = 0, 3, 5
 """Pieces less than so many pixels apart are one piece, tried in turn."""
+PRINTED = 15
+"""How many pixels of a stroke a printed cross may hide."""
 SLIGHT = 0.65
 """A letter with pieces of less than this share of its size is no other letter: a prime, a speck."""
 SIDE, BOX = 24, 20
@@ -129,6 +131,13 @@ def probabilities(seen: Any, layers: tuple[Any, ...]) -> Any:
     return value / value.sum(axis=1, keepdims=True)
 
 
+def bridged(dark: Any, known: Any) -> Any:
+    """The ink outside print, and that under print which joins pieces of it."""
+    inked = (dark * known > INKED).astype(np.uint8)
+    joined = cv2.morphologyEx(inked, cv2.MORPH_CLOSE, np.ones((PRINTED, PRINTED), np.uint8))
+    return dark * (known | (joined > 0))
+
+
 def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapping[str, float]:
     """How likely each of some letters is written beside a place: from FLOOR to 1.
 
@@ -139,7 +148,7 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
     half = round(ROOM * DENSITY)
     left, top = max(0, round(x) - half), max(0, round(y) - half)
     part = slice(top, round(y) + half), slice(left, round(x) + half)
-    dark = ink.dark[part] * (ink.known[part] > 0)
+    dark = bridged(ink.dark[part], ink.known[part] > 0)
     found = np.full(len(letters), FLOOR)
     beside = []
     if min(dark.shape) >= STRAIGHT:

@@ -31,7 +31,7 @@ from graphkin.writers.commit import held, put_in_place, settle
 POINTS = ".points.json"
 FORMAT = 1
 """The format of points.json."""
-METHOD = 19
+METHOD = 20
 """Version of the method.
 
 Increase it when the same photograph would be read differently, so that older readings are redone.

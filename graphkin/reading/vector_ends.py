@@ -66,7 +66,7 @@ NEAR, CLEAR, AT = 1.4, 3.2, 0.6
 """A head this close to a point, in mm, is at the point; beyond CLEAR it is clearly elsewhere.
 
 Between them, a ring about the point looks like the sides of a head. AT is the same as NEAR at a
-vector's tail.
+vector's tail, and where a head is drawn just beyond a point.
 """
 PASSED = 2.8, 3.8
 """Where a head beyond a point, in mm, is no ring about the point, though not clearly elsewhere."""
@@ -204,8 +204,8 @@ def vector_end(
     along = np.arange(max(NEAREST * long, 5.0), FARTHEST * long + PITCH, PITCH)
     at_shaft = on_shaft(ink, tail + along * way, way)
     share, near = heads(ink, at_shaft, way, pale), abs(along - long) <= NEAR
-    here = float(share[near].max())
     large = float(heads(ink, at_shaft[near], way, pale, size=LARGE).max())
+    here = max(float(share[near].max()), large)
     marked = is_marked(ink, tip, RINGS, FADED)
     others = [(each - tail) / way for each in others]
     shared = any(
@@ -213,7 +213,6 @@ def vector_end(
     )
     alike = any(abs(np.angle(each / way)) < BESIDE for each in beside)
     free = abs(along - long) > (CLEAR * LARGE if large >= OWN else CLEAR)
-    here = max(here, large)
     for other in others:
         free &= abs(along - other) > FREE
     there = np.where(free, share, -1.0)
@@ -235,10 +234,12 @@ def vector_end(
     likely = back.max() >= TURNED if alike or shared else steady(back).max() >= HEADED
     at_tail = bool(likely) and not crowded
     head = complex(place) if elsewhere and (clearer or here < OWN) else None
+    off, by = along - long, [other.real - long for other in others]
     rivalled = (
-        ((along_line or shared) and elsewhere)
+        elsewhere
         or (here < OWN and there.max() >= HEADED)
-        or (along_line and is_beside(share, along - long, [o.real - long for o in others]))
+        or (along_line and is_beside(share, off, by))
+        or is_passed(ink, tip, way, share, off, by)
     )
     doubled = bool((at_tail and not turned) or (rivalled and head is None))
     only = here >= LIKELY and here > max(float(steady(there).max()), unsure) + LEAD
@@ -275,6 +276,22 @@ def is_beside(share: Any, off: Any, others: Sequence[float]) -> bool:
     close = over[off <= CLEAR].max() >= CERTAIN or (here < CERTAIN and over.max() >= HEADED)
     behind = LIKELY <= here < CERTAIN and steady(under).max() >= CERTAIN
     return bool((here >= OWN and close) or behind)
+
+
+def is_passed(
+    ink: DrawnInk, tip: complex, way: complex, share: Any, off: Any, others: Sequence[float]
+) -> bool:
+    """Whether the only head next to a point is drawn a little beyond it.
+
+    A ring about the point looks like such a head, but no ring is about that head's tip. For
+    ``share``, ``off`` and ``others``, see ``is_beside``.
+    """
+    free = np.all([abs(off - each) > FREE for each in others], axis=0) if others else True
+    over = np.where(free & (off > 0) & (off <= CLEAR), steady(share), -1.0)
+    if share[abs(off) <= AT].max() >= OWN or over.max() < HEADED:
+        return False
+    place = tip + float(off[over.argmax()]) * way
+    return not is_marked(ink, tip, RINGS, FADED) or is_marked(ink, place, RINGS)
 
 
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:

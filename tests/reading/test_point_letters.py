@@ -47,6 +47,20 @@ def test_a_written_letter_is_likelier_than_any_other_of_the_plan(letter: str) ->
     assert best.count(letter) >= 0.75 * len(best)
 
 
+def test_a_letter_under_print_is_not_cut_in_two() -> None:
+    """Print hides the middle of its stem, and the ends of its stroke are no letter."""
+    best = []
+    for seed in SEEDS:
+        ink = beside("c", seed)
+        middle = (POINT + 2.3 - complex(*ink.paper.fields[:2])) * DENSITY
+        known = ink.known.copy()
+        row, column = round(middle.imag), round(middle.real)
+        known[row - 4 : row + 4, column - 8 : column + 8] = 0
+        likely = letters_near(DrawnInk(ink.dark, known, ink.sway, ink.paper), POINT, LETTERS)
+        best.append(max(likely, key=likely.__getitem__))
+    assert best.count("c") >= 0.5 * len(best)
+
+
 def test_a_point_without_a_letter_has_none() -> None:
     likely = letters_near(ink_of(*LINES), POINT, LETTERS)
     assert max(likely.values()) == FLOOR

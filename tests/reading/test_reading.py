@@ -20,6 +20,7 @@ import numpy as np
 import pypdfium2
 import pytest
 from click.testing import CliRunner, Result
+from msgspec.structs import replace
 from PIL import Image
 from pypdf import PdfWriter
 
@@ -59,7 +60,15 @@ from graphkin.reading.point_search import (
     expected,
 )
 from graphkin.reading.read_run import ReadOutcome, read_order
-from graphkin.reading.read_sheet import Grid, SheetRecord, code_of_halves, known_code, read_one
+from graphkin.reading.read_sheet import (
+    Grid,
+    SheetRecord,
+    code_of_halves,
+    known_code,
+    last_drawn,
+    read_one,
+)
+from graphkin.reading.read_sheet import sheets_of as sheets_read
 from graphkin.reading.settled_points import (
     READING,
     SETTLED,
@@ -191,6 +200,28 @@ def test_nobody_is_asked_of_a_right_sheet_and_of_every_mistake_somebody_is(taken
     wrong = {step for _, step, _, verdict in true["points"] if verdict == "wrong"}
     assert wrong
     assert all(point["ask"] for point in hard["points"] if point["step"] in wrong)
+
+
+def test_pictures_are_read_alike_in_any_order(a_class: Path, taken: Path) -> None:
+    order = read_order(read_edition(a_class), Grid())
+    last_drawn.cache_clear()
+    for name in ("hard", "plain", "hard"):
+        again = read_one(order, Photograph(name, taken / f"{name}.jpg"), "").record
+        before = kept(taken / "read", name)
+        assert before is not None
+        assert (again.points, again.corners) == (before.points, before.corners)
+
+
+def test_a_lab_that_was_changed_gives_new_sheets(a_class: Path, code: str) -> None:
+    order = read_order(read_edition(a_class), Grid())
+    taker, lab = order.takers[code], order.order.lab
+    before = sheets_read(order.order, taker, "en")
+    rubric = replace(lab.rubric, point=2 * lab.rubric.point)
+    changed = replace(order.order, lab=replace(lab, rubric=rubric))
+    assert sheets_read(changed, taker, "en").lab.rubric == rubric
+    renamed = replace(taker, student=replace(taker.student, name="Ana"))
+    assert sheets_read(order.order, renamed, "en").taker.student.name == "Ana"
+    assert sheets_read(order.order, taker, "en").lab == before.lab
 
 
 def test_lengths_on_the_drawing_are_the_answers(a_class: Path, taken: Path, code: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -128,10 +129,15 @@ def test_long_lines_on_both_sides_are_no_head() -> None:
 
 
 LINE: Strokes = [(TAIL, TIP + 50 * WAY)]
-RING: Strokes = [
-    (TIP + 0.85 * np.exp(1j * turn), TIP + 0.85 * np.exp(1j * (turn + 0.3)))
-    for turn in np.arange(0, 2 * np.pi, 0.3)
-]
+
+
+def ring(place: complex) -> Strokes:
+    """The ring of a point."""
+    turns = 0.85 * np.exp(1j * np.arange(0, 2 * np.pi + 0.3, 0.3))
+    return [(place + a, place + b) for a, b in pairwise(turns.tolist())]
+
+
+RING = ring(TIP)
 
 
 def test_a_point_on_a_line_without_head_and_mark_is_open() -> None:
@@ -298,3 +304,25 @@ def test_a_point_laid_off_on_a_line_is_at_its_head(
     found = search.best_near(number, ExpectedPlace(at + 0.6 * way, np.eye(2) * 0.5))
     assert found is not None
     assert abs(found.place - at) < 0.4
+
+
+@pytest.mark.parametrize("past", [1.8, 2.0, 2.4, 2.8])
+@pytest.mark.parametrize("along", [False, True])
+def test_a_head_and_a_ring_a_little_beyond_the_point_are_asked_about(
+    past: float, *, along: bool
+) -> None:
+    moved = TIP + past * WAY
+    strokes = vector(TAIL, moved) + ring(moved) + LINE * along
+    assert not read(strokes, along=along).is_there
+    assert read(vector(TAIL, TIP) + RING + LINE * along, along=along).is_there
+
+
+@pytest.mark.parametrize("turn", [-6, 5, 8])
+def test_the_head_of_a_vector_beside_it_does_not_hide_that_one_ends_before_the_point(
+    turn: int,
+) -> None:
+    """Its own head is farther back on its line, and its neighbour is drawn up to the point."""
+    start = TIP - 50 * WAY * np.exp(1j * np.radians(turn))
+    short = vector(TAIL, TIP - 16 * WAY)
+    assert not read(short + vector(start, TIP)).is_there
+    assert read(vector(TAIL, TIP) + vector(start, TIP)).is_there
