@@ -63,6 +63,8 @@ FULL = 10_000_000
 """The most values of a cycle: rows times quantities in each."""
 ROUNDED = 1e-7
 """Rounding error of positions, as a share of the mechanism; it is largest near dead points."""
+ROUNDINGS = 16
+"""Roundings of u by which a position may be off."""
 COARSE = 1e-4
 """Bound, as a share of the mechanism, above which positions between two rows are examined."""
 PARTS = 16
@@ -723,13 +725,15 @@ def missing(rows: PlacesAndRates, unit: float) -> tuple[Any, Any]:
     ``unit`` is one unit of u in SI. The trapezoidal rule errs by at most an eighth of the squared
     step times the change of the second derivative: a twelfth for an even change, an eighth for a
     sudden one. The change is the largest of three consecutive steps, because it may reverse within
-    one.
+    one. Some roundings of u itself count where points are fast and steps tiny.
     """
     step = np.diff(rows.at) * unit
     led = (rows.rate[:, 1:] + rows.rate[:, :-1]) / 2 * step
     change = np.pad(np.abs(np.diff(rows.bend, axis=1)), ((0, 0), (1, 1)))
     change = np.maximum(np.maximum(change[:, :-2], change[:, 1:-1]), change[:, 2:])
-    bound = step**2 / 8 * change + ROUNDED * rows.size
+    rounded = ROUNDINGS * np.spacing(np.maximum(abs(rows.at[1:]), abs(rows.at[:-1]))) * unit
+    fastest = np.maximum(abs(rows.rate[:, 1:]), abs(rows.rate[:, :-1]))
+    bound = step**2 / 8 * change + ROUNDED * rows.size + rounded * fastest
     return np.abs(np.diff(rows.place, axis=1) - led), bound
 
 
