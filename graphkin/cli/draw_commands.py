@@ -209,13 +209,11 @@ def cycle(
         cycle_lines,
         cycle_rows,
         extremes_rows,
-        jump_words,
         positions_lines,
     )
     from graphkin.motion.cycle import cycle as moved
     from graphkin.motion.equal_positions import equal_positions
     from graphkin.motion.extremes import all_extremes
-    from graphkin.motion.jumps import jumps
     from graphkin.motion.sweep import bounds_in_si
     from graphkin.text.tables import csv_text
     from graphkin.writers.files import file_stem, refuse_folder, write_all
@@ -227,18 +225,13 @@ def cycle(
     with working() as step:
         step("following the motion")
         found = moved(mechanism, driver=driver, steps=steps, low=first, high=last)
-        step(f"checking {len(found.at)} rows")
-        leaps = jumps(found)
         step(f"looking for extremes in {len(found.at)} rows")
-        reached = () if leaps else all_extremes(found, ratios=advantage)
+        reached = all_extremes(found, ratios=advantage)
         few = equal_positions(found, positions, begin) if positions else None
         step(f"holding {len(found.at)} rows to the vector loops")
-        lines = [*cycle_lines(found, leaps, reached)]
+        lines = [*cycle_lines(found, reached)]
     tell(lines)
     tell(positions_lines(few) if few is not None else ())
-    if leaps:
-        complain(f"{jump_words(found, leaps[0])}: this is no motion, nothing is written")
-        leave(FAILED)
     tables = {"cycle": cycle_rows(found)}
     tables |= {"extremes": extremes_rows(found, reached)} if any(reached) else {}
     tables |= {"positions": cycle_rows(few)} if few is not None else {}

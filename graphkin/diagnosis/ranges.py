@@ -11,7 +11,7 @@ from msgspec import Struct
 from graphkin.numbers.arithmetic import np
 from graphkin.scene.model import Scene
 from graphkin.structure.driver_count import driver_name
-from graphkin.text.errors import NO_WORDS, Message, joined, message
+from graphkin.text.errors import NO_WORDS, ClosureError, Message, joined, message
 
 if TYPE_CHECKING:
     from graphkin.motion.course import Course
@@ -190,7 +190,6 @@ def sought(scene: Scene, number: int) -> ClosingRanges:
     from graphkin.motion.course import Course
     from graphkin.motion.driving import GRID
     from graphkin.motion.turns_followed import TooManyPositionsError, wheels
-    from graphkin.text.errors import GraphkinError
 
     course = Course(swept(scene, number), scene.branches)
     try:
@@ -208,7 +207,7 @@ def sought(scene: Scene, number: int) -> ClosingRanges:
         found = ranges_of(course, count)
     except TooManyPositionsError:
         return ClosingRanges([], dear=True)
-    except GraphkinError:
+    except ClosureError:
         return ClosingRanges([])
     return ClosingRanges(found, count if count < GRID else 0)
 

@@ -28,6 +28,7 @@ from graphkin.motion.sweep import Sweep, Turned
 from graphkin.motion.turns_followed import (
     BACK,
     MOST_TURNS,
+    TooManyPositionsError,
     led,
     led_round,
     misses,
@@ -578,7 +579,7 @@ def marched(course: Course, start: float, stop: float) -> Range:
         start=start,
         stop=stop,
     )
-    raise ClosureError.at(
+    raise TooManyPositionsError.at(
         message("the cycle"), found, message("fewer"), message("show less with --from and --to")
     )
 

@@ -28,7 +28,6 @@ from graphkin.text.errors import GraphkinError, Problem, SceneError, message
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import Cycle
-    from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Piece
 
 FRAMES = 72
@@ -77,13 +76,9 @@ class FrameSequence(Struct, frozen=True):
 def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     """The moments of a cycle, constructed one by one in the assembly mode that holds there.
 
-    Raises SceneError where nothing can move, and where something jumps.
+    Raises SceneError where nothing can move.
     """
-    from graphkin.motion.jumps import jumps
-
     reached = cycle.ranges[0]
-    if leaps := jumps(cycle):
-        raise SceneError(leap(leaps[0], cycle.sweep.unit))
     if reached[1] - reached[0] < LITTLE * (cycle.sweep.high - cycle.sweep.low):
         raise SceneError(at_rest(cycle))
     low, high = shown_range(cycle)
@@ -103,24 +98,6 @@ def motion(cycle: Cycle, words: Words, frames: int = FRAMES) -> FrameSequence:
     start = some[shown[0]].alone
     moments = tuple(replace(m, alone=replace(m.alone, chosen=start)) for m in some)
     return FrameSequence(cycle, moments, shown, low, high, reached)
-
-
-def leap(jump: Jump, unit: str) -> Problem:
-    """The problem of a motion in which something jumps."""
-    what = message("link {on}", on=jump.of) if jump.turns else jump.of
-    found = message(
-        "{what} jumps between {low:.6g} and {high:.6g} {unit}",
-        what=what,
-        low=jump.low,
-        high=jump.high,
-        unit=unit,
-    )
-    return Problem(
-        message("the animation"),
-        found,
-        message("a motion"),
-        message("graphkin cycle says how far it jumps"),
-    )
 
 
 def at_rest(cycle: Cycle) -> Problem:

@@ -6,16 +6,12 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
-from graphkin.cli.report.cycle_report import cycle_lines
 from graphkin.mechanism import Mechanism, load
-from graphkin.motion.cycle import Cycle, cycle, cycle_at
+from graphkin.motion.cycle import Cycle, cycle, cycle_at, jumps
 from graphkin.motion.ends import Event
-from graphkin.motion.jumps import jumps
 from graphkin.motion.pieces import Path
 from graphkin.scene.read_scene import read_text
-from graphkin.text import words
-from graphkin.text.errors import SceneError
-from graphkin.web.frames import motion
+from graphkin.text.errors import WitnessError
 from tests.chosen import shared
 from tests.examples.scenes import FILES
 from tests.motion.linkages import four_bar, slider_crank
@@ -63,12 +59,17 @@ def test_a_small_jump_is_seen_at_any_grid():
         assert [each.low <= 100 <= each.high for each in jumps(joined)] == [True, False]
 
 
-def test_a_jump_is_told_and_no_animation_is_made_of_it():
-    found = switched(cycle(four_bar(2, 5, 4, 6, speed=7)), 123.5)
-    text = "\n".join(cycle_lines(found, jumps(found)))
-    assert "between φ = 123.000° and 124.000° B jumps" in text
-    with pytest.raises(SceneError, match="B jumps between 123 and 124 deg"):
-        motion(found, words("en"))
+def test_no_cycle_with_a_jump_is_given(monkeypatch):
+    """Not to a command, nor a sheet, nor a program of one's own; in all rows or in some targets."""
+    mechanism = four_bar(2, 5, 4, 6, speed=7)
+    found = switched(cycle(mechanism), 123.5)
+    monkeypatch.setattr("graphkin.motion.cycle.reachable_ranges", lambda *_: found.path)
+    there = found.solution.points["B"].position
+    way = f"{abs(there[124] - there[123]):.4g}"
+    words = rf"B jumps between 123 and 124 deg; .*it moves {way} m there, and .* gives 0\.01\d+ m"
+    for targets in (None, [("position", "A")]):
+        with pytest.raises(WitnessError, match=words):
+            cycle(mechanism, targets=targets)
 
 
 @pytest.mark.parametrize("name", shared(FILES, 4))

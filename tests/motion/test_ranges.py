@@ -7,6 +7,7 @@ import pytest
 
 import graphkin
 from graphkin.diagnosis.ranges import closing
+from graphkin.motion import pieces
 from graphkin.motion.cycle import cycle
 from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
@@ -84,3 +85,36 @@ def test_ranges_that_meet_where_loci_touch_are_one():
     tongs = graphkin.load(FOLDER / "motion/lazy-tongs.toml")
     (found,) = closing(tongs.scene).ranges
     assert found == pytest.approx((-0.12, 0.12), abs=1e-7)
+
+
+GEARED_PARALLELOGRAM = """
+[frame]
+O1 = [0, 0]
+O2 = [6, 0]
+O3 = [-3, 0]
+[links.1]
+O1-A = 2
+wheel = { centre = "O1", radius = 1 }
+[links.2]
+A-B = 6
+[links.3]
+O2-B = 2
+[links.4]
+O3-C = 1
+wheel = { centre = "O3", radius = 2 }
+rolls = { on = "1" }
+[[drivers]]
+turn = 1
+angle = 30
+speed = 1
+[branches]
+B = "left of A-O2"
+"""
+
+
+def test_a_range_with_too_many_change_points_is_not_said_to_close_nowhere(monkeypatch):
+    """Without the bound it closes at every angle, by two change points in each turn."""
+    assert closing(mechanism_of(GEARED_PARALLELOGRAM).scene).ranges == [(0.0, 360.0)]
+    monkeypatch.setattr(pieces, "MOST_PIECES", 1)
+    found = closing(mechanism_of(GEARED_PARALLELOGRAM).scene)
+    assert found.dear and not found.ranges

@@ -13,8 +13,7 @@ from graphkin.diagnosis.closures import choices
 from graphkin.loops.assemble import assemble
 from graphkin.loops.equations import parts_of
 from graphkin.mechanism import Mechanism
-from graphkin.motion.cycle import cycle
-from graphkin.motion.jumps import jumps
+from graphkin.motion.cycle import cycle, jumps
 from graphkin.scene.model import FRAME
 from graphkin.scene.read_scene import read_text
 from graphkin.structure.groups import Higher

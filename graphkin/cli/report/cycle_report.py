@@ -31,7 +31,6 @@ if TYPE_CHECKING:
     from graphkin.motion.events import Singular
     from graphkin.motion.extremes import Extreme, Extremes, Reached
     from graphkin.motion.follower_limits import Dwell, Follower, Limit
-    from graphkin.motion.jumps import Jump
     from graphkin.motion.pieces import Path, Piece
     from graphkin.motion.single_loop import Loop
     from graphkin.motion.sweep import Sweep
@@ -254,12 +253,11 @@ SHOWN = 6
 
 def cycle_lines(
     cycle: Cycle,
-    found_jumps: Sequence[Jump] = (),
     found_extremes: Sequence[Sequence[Extremes]] = (),
 ) -> Iterator[str]:
     """The whole report of a cycle, line by line.
 
-    It names the jumps found in the cycle, and the extremes found in each range.
+    It names the extremes found in each range.
     """
     from graphkin.motion.follower_limits import followers
     from graphkin.motion.single_loop import loop_of
@@ -283,7 +281,7 @@ def cycle_lines(
     loop = loop_of(cycle)
     yield from labelled("loop", loop_words(cycle, loop) if loop is not None else [])
     yield from labelled("rows", [rows_words(cycle)])
-    yield from labelled("motion", list(motion_words(cycle, found_jumps)))
+    yield from labelled("motion", ["from row to row every point goes as its velocity leads it"])
     yield from labelled("witness", [witness_words(cycle)])
     yield from labelled("digits", list(digits_words(cycle)))
 
@@ -621,27 +619,6 @@ def rows_words(cycle: Cycle) -> str:
     places = [at_words(cycle.sweep, float(at), name=False) for at in left]
     which = listed(places) if len(left) <= SHOWN else f"{places[0]} … {places[-1]}"
     return f"{words}; {len(left)} positions left out, they do not close or are singular: {which}"
-
-
-def motion_words(cycle: Cycle, found: Sequence[Jump]) -> Iterator[str]:
-    """Whether every point follows its velocity from row to row, or where it jumps."""
-    if not found:
-        yield "from row to row every point goes as its velocity leads it"
-    for each in found[:SHOWN]:
-        yield jump_words(cycle, each)
-    if len(found) > SHOWN:
-        yield f"and {len(found) - SHOWN} more jumps"
-
-
-def jump_words(cycle: Cycle, found: Jump) -> str:
-    """Where a point or link jumps, and how far."""
-    low, high = (at_words(cycle.sweep, at, name=False) for at in (found.low, found.high))
-    where = f"between {cycle.sweep.coordinate.letter} = {low} and {high}"
-    if found.turns:
-        ways = [f"{angle:.3f}°" for angle in (found.way, found.led)]
-        return f"{where} link {found.of} turns {ways[0]} at once where its rate gives {ways[1]}"
-    ways = [length_words(cycle.sweep, way) for way in (found.way, found.led)]
-    return f"{where} {found.of} jumps {ways[0]} where its velocity gives {ways[1]}"
 
 
 def witness_words(cycle: Cycle) -> str:
