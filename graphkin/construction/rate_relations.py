@@ -22,10 +22,10 @@ from graphkin.construction.core.naming import (
     driver_index,
     driver_of_rate,
     length_scale,
+    own_scale,
     rate_symbol,
     sense,
     speed_symbol,
-    stated_scale,
     turning_with,
     vector_of,
 )
@@ -48,7 +48,6 @@ from graphkin.drawing.symbol_markup import bar, escape, of_wheel, symbol
 from graphkin.scene.model import FRAME, Angled, Belt, Driver
 from graphkin.scene.quantity import Quantity
 from graphkin.scene.simplify import simplified, text_of
-from graphkin.text import IMPERIAL
 
 
 def of_turning(drawing: Drawing) -> Iterator[Relation]:
@@ -358,7 +357,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(
         drawing.in_signs("*k*_L"),
         "",
-        stated_scale(drawing) if words.length in IMPERIAL else "",
+        "".join(map(" ".join, own_scale(drawing))),
         number,
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),

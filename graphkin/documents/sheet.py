@@ -126,9 +126,7 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     A task leaves a factor open unless it states the factor itself.
     """
     words, scales, task = drawing.words, drawing.scales, view == "task"
-    kL = stated_scale(drawing)
-    if task:
-        kL = f"{BLANK} {kL.split()[-1]}"
+    kL = stated_scale(drawing, BLANK if task else "")
     if kind == FORCE:
         above = words("page.loads_heading", scale=words.decimal(scales.words), kL=kL)
         return above, words("page.force_heading", k=figure(drawing, scales.kF / 1000))

@@ -93,13 +93,22 @@ def length_scale(drawing: Drawing) -> str:
     return drawing.words.decimal(digits(scale) if exact else f"{scale:.6g}")
 
 
-def stated_scale(drawing: Drawing) -> str:
-    """kL with its unit: per millimetre of paper, but per inch or foot of paper in these units."""
+def own_scale(drawing: Drawing) -> tuple[tuple[str, str], ...]:
+    """kL per inch or foot of paper, a number and its unit, in these units; otherwise empty."""
     words = drawing.words
-    if words.length in IMPERIAL:
-        unit = words.spelled(f"{words.length}/{words.length}")
-        return f"{words.decimal(digits(drawing.scales.kL * drawing.scales.metre))} {unit}"
-    return f"{length_scale(drawing)} {words.unit('m/mm')}"
+    if words.length not in IMPERIAL:
+        return ()
+    number = words.decimal(digits(drawing.scales.kL * drawing.scales.metre))
+    return ((number, words.spelled(f"{words.length}/{words.length}")),)
+
+
+def stated_scale(drawing: Drawing, blank: str = "") -> str:
+    """kL with its unit: per millimetre of paper, in inches and feet also per inch or foot of paper.
+
+    ``blank`` replaces the numbers.
+    """
+    every = (*own_scale(drawing), (length_scale(drawing), drawing.words.unit("m/mm")))
+    return " = ".join(f"{blank or number} {unit}" for number, unit in every)
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
