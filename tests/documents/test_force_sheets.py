@@ -86,6 +86,15 @@ def test_every_view_has_a_sheet_of_forces_that_fits_and_no_gap_in_any_language(
         assert not [m.markup for m in texts(page) if re.search(r"None|nan\b|[{}]", plain(m.markup))]
 
 
+def test_a_task_gives_the_scales_that_the_lecturer_chose():
+    """Nothing else says how large polygons and lever are to be drawn."""
+    drawing = forces_of("four-bar")
+    said = " ".join(plain(m.markup) for page in sheet_of("four-bar", "task") for m in texts(page))
+    for letter, scale in (("F", drawing.scales.kF), ("v", drawing.scales.k_lever)):
+        (found,) = {float(each) for each in re.findall(rf"k{letter} = ([\d.]+) \S+/mm", said)}
+        assert found == pytest.approx(scale / 1000)
+
+
 def test_scenes_without_forces_have_no_such_sheet():
     kinds = [each.kind for each in hand_out(load(FOLDER / "shaper.toml"))]
     assert kinds == ["velocity", "acceleration", "calculation"]
