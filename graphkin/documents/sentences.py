@@ -345,10 +345,8 @@ def force_relations(drawing: Drawing) -> list[tuple[str, list[Relation]]]:
 
 
 def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
-    """The parameters, the motion of drivers, masses, moments of inertia, gravity and loads."""
+    """The parameters, the motion of drivers, and the data of forces."""
     scene, words = drawing.scene, drawing.words
-    forces = scene.forces
-    assert forces is not None
     found = [
         Datum(name=name, value=value, parameters=(of,))
         for of, name, value in other_parameters(scene, words)
@@ -358,7 +356,15 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
         for driver in scene.drivers
         for piece in of_driver(scene, words, driver, solved=solved, laws=True)
     ]
-    remarks = []
+    return [*found, *load_data(drawing)]
+
+
+def load_data(drawing: Drawing) -> list[Datum]:
+    """Masses, moments of inertia, gravity, loads, springs and tensions of belts."""
+    scene, words = drawing.scene, drawing.words
+    forces = scene.forces
+    assert forces is not None
+    found, remarks = list[Datum](), list[Datum]()
     for link, mass in forces.masses.items():
         if mass.mass.is_zero():
             continue
