@@ -621,7 +621,7 @@ def panels(paper: SheetPaper, layout: Layout) -> list[Mark]:
 
 def title_of(drawing: Drawing) -> str:
     """The scene's title in the sheet's language."""
-    return drawing.scene.titles.get(drawing.words.language, drawing.scene.title)
+    return drawing.scene.title_in(drawing.words.language)
 
 
 def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:
