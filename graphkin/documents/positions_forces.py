@@ -173,8 +173,8 @@ def value_rows(every: Sequence[ForcedPosition]) -> Iterator[ValueRow]:
     given = first.scene.forces
     assert given is not None
     for table in constructions(first.trace.program, ByTable):
-        sizes = [each.drawing.by_table[table.name] for each in every]
-        yield ValueRow(f"{symbol(table.name)} ({first.words.spelled(table.unit)})", sizes)
+        loads = [each.drawing.by_table[table.name] for each in every]
+        yield ValueRow(f"{symbol(table.name)} ({first.words.spelled(table.unit)})", loads)
     asked = [t for t in first.trace.program.targets if is_asked(first.scene, given, t)]
     for target in sorted(asked, key=lambda each: FORCES.index(BY_TARGET[each[0]])):
         quantity, name = BY_TARGET[target[0]], first.symbol(target[1])
