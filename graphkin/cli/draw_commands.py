@@ -242,7 +242,7 @@ def cycle(
             from graphkin.motion.curves.plane_paths import picture_files
 
             step("drawing the curves")
-            files |= picture_files(found, stem, curves)
+            files |= picture_files(found, stem, curves, lang)
         if {"gif", "html"} & {*kinds}:
             from graphkin.web.player import animation_files
 

@@ -433,7 +433,7 @@ def all_files(
     from graphkin.scene.file_limits import whole_file
 
     scene = opened.book.mechanism({}).scene
-    title = scene.titles.get(words.language, scene.title)
+    title = scene.title_in(words.language)
     before = report / MARKS
     earlier = whole_file(before) if before.is_file() else b""
     refused = list(refused_lines(opened, given, refusals, words))

@@ -22,11 +22,11 @@ from graphkin.construction.core.naming import (
     driver_index,
     driver_of_rate,
     length_scale,
+    own_scale,
     rate_symbol,
     scale_unit,
     sense,
     speed_symbol,
-    stated_scale,
     turning_with,
     vector_of,
 )
@@ -360,7 +360,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(
         drawing.in_signs("*k*_L"),
         "",
-        stated_scale(drawing) if stated != drawn else "",
+        "".join(map(" ".join, own_scale(drawing))),
         number,
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),

@@ -231,7 +231,7 @@ def draw_fields(board: FieldContent, drawing: Drawing, layout: Layout, view: str
     for number, own in layout.polygons.items():
         caption(board, own.rect, title_of(drawing, starts[number]))
     if layout.lever is not None:
-        k = ". . . . ." if view == "task" else figure(drawing, drawing.scales.k_lever / 1000)
+        k = figure(drawing, drawing.scales.k_lever / 1000)
         caption(board, layout.lever.rect, drawing.words("page.lever_heading", k=k))
     for number, step, _ in drawing.steps(Plane.FORCES, Plane.LEVER):
         kind = construction(step)

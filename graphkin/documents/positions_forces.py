@@ -24,7 +24,7 @@ from graphkin.construction.core.quantities import (
 )
 from graphkin.construction.core.relation import figure
 from graphkin.construction.forces.force_drawing import ForceDrawing, ForceLayout
-from graphkin.construction.forces.loads import is_asked
+from graphkin.construction.forces.loads import ByTable, is_asked
 from graphkin.construction.forces.polygon import InPolygon, PolygonStart
 from graphkin.construction.step_marks import Free, is_shown
 from graphkin.documents.force_fields import proved_forces, title_of
@@ -55,6 +55,7 @@ from graphkin.drawing.marks import LineMark, Mark, Page, Text, box
 from graphkin.drawing.richtext import extent
 from graphkin.drawing.scale import DIGITS, Extent, preferred
 from graphkin.drawing.style import VECTORS
+from graphkin.drawing.symbol_markup import symbol
 from graphkin.motion.driving import TURN
 
 ROW, FIRST, WIDTH, GAP = 6.5, 24.0, 26.0, 8.0
@@ -167,10 +168,13 @@ def bare_polygon(polygon: int, drawing: ForceDrawing, field: Field) -> FieldCont
 
 
 def value_rows(every: Sequence[ForcedPosition]) -> Iterator[ValueRow]:
-    """The asked forces by size and direction, then the balancing moments, at each position."""
+    """The loads of tables, the asked forces by size and direction, the balancing moments."""
     first = every[0].drawing
     given = first.scene.forces
     assert given is not None
+    for table in constructions(first.trace.program, ByTable):
+        loads = [each.drawing.by_table[table.name] for each in every]
+        yield ValueRow(f"{symbol(table.name)} ({first.words.spelled(table.unit)})", loads)
     asked = [t for t in first.trace.program.targets if is_asked(first.scene, given, t)]
     for target in sorted(asked, key=lambda each: FORCES.index(BY_TARGET[each[0]])):
         quantity, name = BY_TARGET[target[0]], first.symbol(target[1])

@@ -18,6 +18,7 @@ from graphkin.construction.core.given_data import data
 from graphkin.construction.core.layout import centre
 from graphkin.construction.core.naming import angle_symbol, stated_scale
 from graphkin.construction.core.paper_canvas import above_foot, clipped_path
+from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.frame_over_motion import standing, travelling
 from graphkin.construction.links.link_shapes import (
     corners_of,
@@ -42,6 +43,7 @@ from graphkin.documents.positions import (
     numbers_of,
     travel_row,
 )
+from graphkin.documents.sentences import force_data
 from graphkin.documents.sheet import (
     LETTERS,
     NAME,
@@ -164,7 +166,11 @@ def heading(found: PositionSet, drawing: Drawing, name: str) -> list[Mark]:
     if paper.is_parted:
         marks = [mark for mark in marks if reach(mark)[2] < paper.across]
     by_time = found.cycle.sweep.driver is None
-    given = data(own, solved=not by_time, laws=by_time)
+    if drawing.kind == FORCE:
+        table = f"({own.words('sheet.force_table')})"
+        given = force_data(own, solved=not by_time, by_table=table)
+    else:
+        given = data(own, solved=not by_time, laws=by_time)
     try:
         return [
             *marks,

@@ -223,7 +223,7 @@ def relations(drawings: Sequence[Drawing], *, solved: bool = True) -> list[Secti
     after = {ends for relation in cams for ends in relation.over}
     driven = [relation for relation in driver if after.intersection(relation.over)]
     sections: list[Section] = [
-        ("data", [data_line(first, solved=solved)]),
+        ("data", [clauses(first, given(first, solved=solved)), *loads_line(drawings)]),
         ("structure", list(of_structure(first)) if solved else []),
         ("driver", [relation for relation in driver if relation not in driven]),
         ("scales", scales),
@@ -400,9 +400,19 @@ def before_use(drawing: Drawing, rate: str) -> Iterator[Relation]:
             yield relation
 
 
-def data_line(drawing: Drawing, *, solved: bool) -> Relation:
-    """The data, as one relation that may be broken after each piece."""
-    *pieces, last = given(drawing, solved=solved)
+def loads_line(drawings: Sequence[Drawing]) -> Iterator[Relation]:
+    """The data of forces, where there is a sheet of forces."""
+    for drawing in drawings:
+        if drawing.kind == FORCE:
+            from graphkin.documents.sentences import load_data
+
+            if found := load_data(drawing):
+                yield clauses(drawing, [datum.said for datum in found])
+
+
+def clauses(drawing: Drawing, said: Sequence[str]) -> Relation:
+    """Data as one relation that may be broken after each piece."""
+    *pieces, last = said
     mark = drawing.words("clause_mark").rstrip()
     first, *more = [f"{piece}{mark}" for piece in pieces] + [last]
     return Relation(first, more=tuple(more))

@@ -344,11 +344,9 @@ def force_relations(drawing: Drawing) -> list[tuple[str, list[Relation]]]:
     return [("loads", list(dict.fromkeys(loads))), ("forces", list(dict.fromkeys(others)))]
 
 
-def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
-    """The parameters, the motion of drivers, masses, moments of inertia, gravity and loads."""
+def force_data(drawing: Drawing, *, solved: bool, by_table: str = "") -> list[Datum]:
+    """The parameters, the motion of drivers, and the data of forces, as ``load_data`` has them."""
     scene, words = drawing.scene, drawing.words
-    forces = scene.forces
-    assert forces is not None
     found = [
         Datum(name=name, value=value, parameters=(of,))
         for of, name, value in other_parameters(scene, words)
@@ -358,7 +356,18 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
         for driver in scene.drivers
         for piece in of_driver(scene, words, driver, solved=solved, laws=True)
     ]
-    remarks = []
+    return [*found, *load_data(drawing, by_table)]
+
+
+def load_data(drawing: Drawing, by_table: str = "") -> list[Datum]:
+    """Masses, moments of inertia, gravity, loads, springs and tensions of belts.
+
+    ``by_table`` replaces the values of loads that a table gives, which are those of this position.
+    """
+    scene, words = drawing.scene, drawing.words
+    forces = scene.forces
+    assert forces is not None
+    found, remarks = list[Datum](), list[Datum]()
     for link, mass in forces.masses.items():
         if mass.mass.is_zero():
             continue
@@ -374,9 +383,9 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
         found.append(Datum(name="*g*", value=f"{words.place(*pair)} {unit}{more}"))
     for load, name in zip(forces.loads, load_names(forces.loads), strict=True):
         if load.force is not None:
-            found += force_datum(drawing, load, name)
+            found += force_datum(drawing, load, name, by_table)
         if load.moment is not None:
-            size = given_size(drawing, load.moment, moment_name(load, name), "N·m")
+            size = given_size(drawing, load.moment, moment_name(load, name), "N·m", by_table)
             found.append(valued(moment_name(load, name), size))
     for number, spring in enumerate(forces.springs, 1):
         own = str(number) if len(forces.springs) > 1 else ""
@@ -394,7 +403,7 @@ def force_data(drawing: Drawing, *, solved: bool) -> list[Datum]:
     return [*found, *remarks]
 
 
-def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
+def force_datum(drawing: Drawing, load: Load, name: str, by_table: str) -> Iterator[Datum]:
     """A given force: its components, or its size with its direction."""
     scene, words, force = drawing.scene, drawing.words, load.force
     assert force is not None
@@ -403,7 +412,7 @@ def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
         unit = words.spelled(force[0].written_unit)
         yield valued(f"P_{name}", f"{words.place(x, y)} {unit}{worked_pair(drawing, force, 'N')}")
         return
-    size = given_size(drawing, force.size, f"P_{name}", "N")
+    size = given_size(drawing, force.size, f"P_{name}", "N", by_table)
     if not force.sense:
         yield valued(f"P_{name}", f"{size}, {quantity_text(scene, words, force.angle)}")
         return
@@ -412,10 +421,12 @@ def force_datum(drawing: Drawing, load: Load, name: str) -> Iterator[Datum]:
     yield Datum(words(key, p=symbol(f"P_{name}"), size=size, v=v))
 
 
-def given_size(drawing: Drawing, size: Size, name: str, unit: str) -> str:
+def given_size(drawing: Drawing, size: Size, name: str, unit: str, by_table: str) -> str:
     """A given number with its unit; one of a table as it is in this position."""
     if not isinstance(size, ByDriver):
         return worked(drawing, size, unit)
+    if by_table:
+        return by_table
     assert isinstance(drawing, ForceDrawing)
     return f"{answer(drawing, drawing.by_table[name])} {drawing.words.unit(unit)}"
 

@@ -22,7 +22,6 @@ from graphkin.construction.core.naming import (
     has_plan,
     name_of_sheet,
     scale_of,
-    scale_unit,
     stated_scale,
 )
 from graphkin.construction.core.paper_canvas import (
@@ -132,7 +131,7 @@ def said_above(drawing: Drawing, kind: str, view: str) -> tuple[str, str]:
     A task leaves a factor open unless it states the factor itself.
     """
     words, scales, task = drawing.words, drawing.scales, view == "task"
-    kL = f"{BLANK} {scale_unit(words)}" if task else stated_scale(drawing)
+    kL = stated_scale(drawing, BLANK if task else "")
     if kind == FORCE:
         above = words("page.loads_heading", scale=words.decimal(scales.words), kL=kL)
         return above, words("page.force_heading", k=figure(drawing, scales.kF / 1000))
@@ -627,7 +626,7 @@ def panels(paper: SheetPaper, layout: Layout) -> list[Mark]:
 
 def title_of(drawing: Drawing) -> str:
     """The scene's title in the sheet's language."""
-    return drawing.scene.titles.get(drawing.words.language, drawing.scene.title)
+    return drawing.scene.title_in(drawing.words.language)
 
 
 def title_block(drawing: Drawing, view: str, number: str) -> TitleBlock:

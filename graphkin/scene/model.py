@@ -676,6 +676,10 @@ class Scene(Struct, frozen=True, dict=True):
     results: str = ""
     base: str = "m"
 
+    def title_in(self, language: str) -> str:
+        """The title in a language."""
+        return self.titles.get(language, self.title)
+
     @property
     def unit_of_results(self) -> str:
         """The unit of length in which results are printed: as stated, else inches of inches.

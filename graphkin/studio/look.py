@@ -350,7 +350,7 @@ def look(sight: Sight, memory: Memory, go_on: Callable[[], None]) -> dict[str, A
     try:
         scene = read(sight)
         found["sliders"] = [to_builtins(each, enc_hook=as_text) for each in sliders(scene)]
-        found["title"] = scene.titles.get(sight.language, scene.title)
+        found["title"] = scene.title_in(sight.language)
         measured = scene.computed_in(scene.unit_of_results)
         mechanism = memory.mechanism(measured, sight.text)
         found |= drawn(mechanism, sight, memory, found["problems"], go_on)

@@ -20,7 +20,7 @@ from graphkin.documents.diagrams_sheet import force_courses
 from graphkin.documents.force_fields import force_drawing, traced
 from graphkin.documents.positions import positions_of
 from graphkin.documents.scaling import sheet_motion
-from graphkin.documents.sentences import force_relations
+from graphkin.documents.sentences import force_relations, load_data
 from graphkin.documents.sheet import asked_words
 from graphkin.documents.sheet_documents import drawings_of, hand_out, proved
 from graphkin.drawing.field import paper_of
@@ -84,6 +84,30 @@ def test_every_view_has_a_sheet_of_forces_that_fits_and_no_gap_in_any_language(
     for page in sheet_of(name, view, language):
         page.check()
         assert not [m.markup for m in texts(page) if re.search(r"None|nan\b|[{}]", plain(m.markup))]
+
+
+def test_a_task_gives_the_scales_that_the_lecturer_chose():
+    """Nothing else says how large polygons and lever are to be drawn."""
+    drawing = forces_of("four-bar")
+    said = " ".join(plain(m.markup) for page in sheet_of("four-bar", "task") for m in texts(page))
+    for letter, scale in (("F", drawing.scales.kF), ("v", drawing.scales.k_lever)):
+        (found,) = {float(each) for each in re.findall(rf"k{letter} = ([\d.]+) \S+/mm", said)}
+        assert found == pytest.approx(scale / 1000)
+
+
+@pytest.mark.parametrize("view", ["key", "task"])
+@pytest.mark.parametrize("name", ["four-bar", "gas-engine", "planetary"])
+def test_the_calculation_gives_the_masses_and_loads_that_its_relations_use(name, view):
+    """Each mass, inertia, load and stiffness, before the first relation."""
+    parts = hand_out(load(SCENES / f"{name}.toml"), view, "en")
+    pages = next(each.pages for each in parts if each.kind == "calculation")
+    said = " ".join(plain(m.markup) for page in pages for m in texts(page)).partition("Driver")[0]
+    drawing = forces_of(name)
+    given = load_data(drawing)
+    scene = drawing.scene
+    masses = [link for link, each in scene.forces.masses.items() if not each.mass.is_zero()]
+    assert all(f"m{link} = " in said for link in masses)
+    assert all(plain(each.name) + " = " in said for each in given if each.value)
 
 
 def test_scenes_without_forces_have_no_such_sheet():

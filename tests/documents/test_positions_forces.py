@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from cmath import phase
 from functools import cache
+from itertools import pairwise
 from math import degrees
+from pathlib import Path
 
 import pytest
 from msgspec.structs import replace
@@ -101,6 +103,29 @@ def test_many_positions_stand_in_blocks_beside_one_another():
     page.check()
     numbers = [m.markup for m in page.marks if isinstance(m, Text) and m.name == "forces"]
     assert {str(n) for n in range(48)} <= set(numbers)
+
+
+@pytest.mark.parametrize("name", ["engine-forces", "pump-forces"])
+def test_every_sheet_gives_the_masses_and_the_loads_that_the_forces_follow_from(name):
+    forces = load(str(FOLDER / f"{name}.toml")).scene.forces
+    for page in sheets(name):
+        said = " ".join(plain(m.markup) for m in page.marks if isinstance(m, Text))
+        for link, mass in forces.masses.items():
+            assert mass.mass.is_zero() or re.search(rf"m{link}\b", said)
+        assert forces.gravity is None or re.search(r"\bg\b", said)
+
+
+def test_a_load_of_a_table_has_its_value_at_each_position():
+    """By the table alone, interpolated anew; no single position's value is among the data."""
+    table = (4200, 7600, 4100, 2300, 1500, 900, 300, 120, 140, 260, 620, 1700)
+    gas = load(Path(__file__).parents[1] / "scenes/forces/gas-engine.toml")
+    pages = {e.kind: e.pages for e in hand_out(gas, "positions", "en")}["force"]
+    column = table_of(pages[-1])["PA (N)"]
+    between = [(a + b) / 2 for a, b in pairwise((*table, table[0]))]
+    assert column == between[1:] + between[:1]
+    assert "(Forces of the positions), 180°" in " ".join(
+        plain(m.markup) for m in pages[-1].marks if isinstance(m, Text)
+    )
 
 
 def test_a_scene_that_asks_for_no_forces_has_no_such_sheets():

@@ -412,3 +412,30 @@ def test_a_length_in_a_polygon_is_marked_as_it_is_printed(results: str) -> None:
     found = texts(mechanism, "key")
     printed = next(b for a, b in pairwise(found) if a == "R12" and re.fullmatch(r"[\d.]+", b))
     assert own.key["R_12_mm"] == pytest.approx(float(printed), abs=0.006)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("view", ["key", "task"])
+def test_the_head_of_a_force_sheet_has_both_units_of_its_scale(view: str, language: str) -> None:
+    """Arms are in mm on paper, so a moment in lbf·in needs kL in in/mm."""
+    some = hand_out(Mechanism(read_text(PRESS, "x")), view, language)
+    (page, *_) = next(part.pages for part in some if part.kind == "force")
+    said = " ".join(plain(m.markup) for m in page.marks if isinstance(m, Text))
+    own = [words(language).spelled(unit) for unit in ("in/in", "in/mm")]
+    assert re.search(rf"kL = [^=()]+ {own[0]} = [^=()]+ {own[1]}", said)
+
+
+@pytest.mark.parametrize("results", ["lbf", "in", "SI"])
+def test_a_displacement_on_paper_follows_from_the_head_of_the_sheet(results: str) -> None:
+    """Its moment by its force and kL in the last unit of the head, all as printed."""
+    mechanism = Mechanism(read_text(PRESS, "x"))
+    if results != "lbf":
+        mechanism = Mechanism(replace(mechanism.scene, results=results))
+    sheet, calculation = (" ".join(texts(mechanism, view)) for view in ("steps", "key"))
+    scale = re.search(r"loads, scale \S+ +\(kL = (?:[\d.]+ in/in = )?([\d.]+) (?:in|m)/mm", sheet)
+    force = re.search(r"Fi2 = [^=]+ = ([\d.]+) ", sheet)
+    shift = re.search(r"h\d = Mi2/\(Fi2·kL\) = ([\d.]+) mm", sheet)
+    turning = re.search(r"Mi2 = J2·ε2 = [^=]+ = ([\d.]+) ", calculation)
+    assert scale and force and shift and turning
+    k, f, h, m = (float(each[1]) for each in (scale, force, shift, turning))
+    assert h == pytest.approx(m / (f * k), rel=2e-3)

@@ -249,6 +249,24 @@ def test_no_sentence_is_left_in_english(language):
     }
 
 
+def test_the_german_word_of_a_side_is_followed_by_what_it_governs():
+    """It ends with its preposition, so that no "davon" can follow: "links von davon"."""
+    spoken = words("de")
+    sides = [spoken(f"page.{side}") for side in ("left", "right", "above", "below")]
+    for key in ("page.guide_beside", "page.slot_beside"):
+        for side in sides:
+            gaps = dict.fromkeys(("point", "line", "offset", "way", "positive"), "")
+            assert f"{side} dieser Geraden" in spoken(key, side=side, **gaps)
+
+
+def test_the_german_pressure_angle_of_a_cam_is_not_that_of_teeth():
+    spoken = words("de")
+    gaps = dict.fromkeys(("most", "u", "at", "limit", "k", "g"), "")
+    for key in ("cam_caption", "pressure_kept", "pressure_beyond"):
+        said = spoken(f"diagrams.{key}", **gaps)
+        assert "Pressungswinkel" in said and "Eingriff" not in said
+
+
 def test_every_key_in_the_code_has_a_sentence():
     assert len(spoken_keys()) > 20
     assert spoken_keys() <= words("en").sentences.keys()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from cmath import rect
 from math import radians
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import cycle_lines, cycle_table
 from graphkin.construction.higher_class.following import FollowedClosure
@@ -234,6 +236,21 @@ def test_the_same_cycle_gives_the_same_bytes_in_both_formats():
     assert all(
         data[:8] == b"\x89PNG\r\n\x1a\n" for name, data in once.items() if name[-3:] == "png"
     )
+
+
+@pytest.mark.parametrize(
+    ("own", "asked", "title"),
+    [("en", "de", "Exzenter"), ("de", None, "Exzenter"), ("en", None, "E"), ("de", "ro", "E")],
+)
+def test_a_figure_has_the_title_of_its_language(own, asked, title):
+    """As sheets have it: of the language asked for, else of the scene's, else the usual one."""
+    scene = load("offset-slider-crank").scene
+    scene = replace(scene, title="E", titles={"de": "Exzenter"})
+    scene = replace(scene, sheet=replace(scene.sheet, language=own))
+    found = cycle(Mechanism(scene), steps=24)
+    pictures = picture_files(found, "x", ("svg",), asked).values()
+    titles = [re.search(r"<title>(.*?)</title>", each.decode())[1] for each in pictures]
+    assert titles and all(re.search(rf": {title}(,|$)", each) for each in titles)
 
 
 @given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6))

@@ -205,7 +205,7 @@ def question(order: PrintOrder, book: Book, each: Assigned, code: str) -> Questi
         for gap, weight in zip(found, heavy, strict=True)
     ]
     shown = {
-        "title": gapless(escape(scene.titles.get(words.language, scene.title))),
+        "title": gapless(escape(scene.title_in(words.language))),
         "variant": gapless(", ".join(map(marked_up, data))),
         "printed": PRINTED,
         "pictures": [name for name, _ in files if name != PRINTED],

@@ -100,12 +100,22 @@ def scale_unit(words: Words) -> str:
     return words.unit("m/mm")
 
 
-def stated_scale(drawing: Drawing) -> str:
-    """kL with its unit."""
-    words, scales = drawing.words, drawing.scales
-    imperial = words.length in IMPERIAL
-    number = words.decimal(digits(scales.kL * scales.metre)) if imperial else length_scale(drawing)
-    return f"{number} {scale_unit(words)}"
+def own_scale(drawing: Drawing) -> tuple[tuple[str, str], ...]:
+    """kL per inch or foot of paper, a number and its unit, in these units; otherwise empty."""
+    words = drawing.words
+    if words.length not in IMPERIAL:
+        return ()
+    number = words.decimal(digits(drawing.scales.kL * drawing.scales.metre))
+    return ((number, scale_unit(words)),)
+
+
+def stated_scale(drawing: Drawing, blank: str = "") -> str:
+    """kL with its unit: per millimetre of paper, in inches and feet also per inch or foot of paper.
+
+    ``blank`` replaces the numbers.
+    """
+    every = (*own_scale(drawing), (length_scale(drawing), drawing.words.unit("m/mm")))
+    return " = ".join(f"{blank or number} {unit}" for number, unit in every)
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:

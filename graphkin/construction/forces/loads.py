@@ -420,7 +420,7 @@ def of_shift(drawing: Drawing, force: InertiaForce, moment: float, size: float) 
         shown_as=lambda drawing, value: drawing.words.fixed(value, 2),
     )
     turning = symbol("M_" + sub("i", force.link))
-    symbols = f"{turning}/({symbol(force.name)}·*k*_L)"
+    symbols = drawing.in_signs(f"{turning}/({symbol(force.name)}·*k*_L)")
     put = f"{figures[0]}/({figures[1]}·{figures[2]})"
     return Relation(symbol(force.number), symbols, put, result, "mm")
 

@@ -217,7 +217,7 @@ class Moments(Struct, frozen=True):
 
     def symbols(self, drawing: Drawing, *, turned: bool = False) -> str:
         """The sum in symbols: F·h_1 − G·h_2 + M; all signs are reversed if ``turned``."""
-        scale = "·*k*_L" if any(t.foot is None for t, *_ in self.shown(drawing)) else ""
+        scale = drawing.in_signs("·*k*_L") if self.in_metres(drawing) else ""
         return signed(
             (
                 (moment > 0) is not turned,
@@ -254,7 +254,7 @@ class Moments(Struct, frozen=True):
 def divisor(drawing: Drawing, *factors: tuple[str, str], metres: bool) -> tuple[str, str]:
     """A product of factors in symbols and in figures; in metres with the scale of lengths."""
     if metres:
-        factors = (*factors, ("*k*_L", figure(drawing, drawing.scales.kL / 1000)))
+        factors = (*factors, (drawing.in_signs("*k*_L"), figure(drawing, drawing.scales.kL / 1000)))
     symbols, figures = ("·".join(each) for each in zip(*factors, strict=True))
     return (symbols, figures) if len(factors) == 1 else (f"({symbols})", f"({figures})")
 
@@ -589,11 +589,12 @@ class BalancingMoment(Construction, frozen=True, kw_only=True):
         symbols = self.moments.symbols(drawing, turned=size > 0)
         put = self.moments.figures(drawing, turned=size > 0)
         k = figure(drawing, drawing.scales.kL / 1000)
-        equation = f"({symbols})·*k*_L = ({put})·{k}" if scaled else f"{symbols} = {put}"
+        if scaled:
+            symbols, put = f"({symbols}){drawing.in_signs('·*k*_L')}", f"({put})·{k}"
         yield Relation(
             symbol(self.name),
             f"−Σ*M*({symbol(self.moments.letter)})",
-            equation,
+            f"{symbols} = {put}",
             answer(drawing, abs(size)),
             "N·m",
             sense(drawing.words, size),

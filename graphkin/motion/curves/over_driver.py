@@ -48,11 +48,13 @@ END = 3e-4
 class Sampled(Struct, frozen=True, eq=False):
     """The motion at closely spaced u, rising within each range.
 
-    ``breaks`` are the row numbers at which a new range begins.
+    ``breaks`` are the row numbers at which a new range begins. ``language`` is that of the scene's
+    title, empty for the scene's own.
     """
 
     cycle: Cycle
     breaks: tuple[int, ...]
+    language: str = ""
 
     @property
     def at(self) -> Reals:
@@ -83,7 +85,8 @@ class Sampled(Struct, frozen=True, eq=False):
             for name in self.scene.parameters
             if name in values
         ]
-        return ", ".join([self.scene.title, *settings])
+        title = self.scene.title_in(self.language or self.scene.sheet.language)
+        return ", ".join([title, *settings])
 
     @property
     def length_unit(self) -> str:
@@ -96,7 +99,7 @@ class Sampled(Struct, frozen=True, eq=False):
         return 1 / float(SI[self.length_unit][0])
 
 
-def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
+def sampled(cycle: Cycle, fine: int = FINE, language: str = "") -> Sampled:
     """A cycle at positions suitable for curves."""
     rows, breaks, count = [], [], 0
     for pieces in cycle.path.ranges:
@@ -121,7 +124,7 @@ def sampled(cycle: Cycle, fine: int = FINE) -> Sampled:
         kept = np.isin(at, fine_cycle.at)
         before = np.concatenate([[0], np.cumsum(kept)])
         breaks = [int(before[b]) for b in breaks]
-    return Sampled(fine_cycle, tuple(breaks))
+    return Sampled(fine_cycle, tuple(breaks), language)
 
 
 def moving_points(scene: Scene, solution: Solution) -> list[str]:

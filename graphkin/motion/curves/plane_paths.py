@@ -422,12 +422,17 @@ def reach_note(loop: Loop) -> str:
 # --- the figure files of a cycle ------------------------------------------------------------------
 
 
-def picture_files(cycle: Cycle, stem: str, formats: Sequence[str]) -> dict[str, bytes]:
-    """Every figure of a cycle by its file name, in each of the formats svg and png."""
+def picture_files(
+    cycle: Cycle, stem: str, formats: Sequence[str], language: str | None = None
+) -> dict[str, bytes]:
+    """Every figure of a cycle by its file name, in each of the formats svg and png.
+
+    The scene's title is in a language, None for the scene's own; all other words are English.
+    """
     from graphkin.writers.svg import write_svg
 
     files: dict[str, bytes] = {}
-    for name, drawn in figures(sampled(cycle)):
+    for name, drawn in figures(sampled(cycle, language=language or "")):
         page = drawn()
         if "svg" in formats:
             files[f"{stem}-{name}.svg"] = write_svg(page).encode("utf-8")
