@@ -398,6 +398,25 @@ def test_columns_in_another_unit_are_told_and_nothing_is_marked(change, columns,
     assert mend in str(caught.value)
 
 
+@pytest.mark.parametrize("others", range(5))
+def test_other_slips_of_a_few_do_not_hide_another_unit(others):
+    """All are in mm/s; up to four of twelve are in m/s, or have another scale too."""
+    takers, answers = keys_of(12)
+    slips = [lambda _, v: v, lambda f, v: v * 400 if f[0] in "va" else v]
+    given = {
+        who: written(row, slips[i % 2] if i < others else all_in_mm)
+        for i, (who, row) in enumerate(answers.items())
+    }
+    with pytest.raises(RosterError, match="another unit") as caught:
+        graded_class(book_of("pump"), takers, given)
+    assert '"v_D", "a_D"' in str(caught.value)
+
+
+def all_in_mm(name: str, value: float) -> float:
+    """The speeds and accelerations a thousand times as large; lengths and strokes stay."""
+    return value * 1000 if name in ("v_D", "a_D") else value
+
+
 def test_half_a_class_in_another_unit_is_marked():
     """Each of them has the cause."""
     takers, answers = keys_of(12)
