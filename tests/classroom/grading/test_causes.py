@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.class_marking import Book, graded_class
-from graphkin.classroom.grading.class_report import result_lines
+from graphkin.classroom.grading.class_report import cause_counts, result_lines
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import cause_text
@@ -189,6 +189,8 @@ def test_all_senses_reversed_are_worth_no_more_than_blank_ones():
     other = given({f: -marker.standard.key[f] for f in senses})
     found = marker.mark(taker(), {**key, **other})
     assert [cause.name for cause in found.causes] == ["sense_reversed"]
+    ((_, answers, students),) = cause_counts([found])
+    assert (answers, students) == (len(senses), 1)
     assert found.earned <= blank
     lost = points_words(found.points - found.earned, words("en"))
     told = notes(found, words("en"))[0]
