@@ -154,7 +154,9 @@ def lost_zeros(sheet: Spreadsheet, column: int) -> str:
 def found_columns(sheet: Spreadsheet, faults: TableProblems, numbered: bool) -> dict[str, int]:
     """The column of each kind of data; a missing required column is recorded."""
     where = columns(sheet, NAMES)
-    wanted = {"id": ("matricol", "matricola", "Matrikelnummer", "matricule", "matrícula")}
+    wanted: dict[str, tuple[str, ...]] = {
+        "id": ("matricol", "matricola", "Matrikelnummer", "matricule", "matrícula")
+    }
     wanted |= {"number": ("nr", "numero")} if numbered else {}
     for what, others in wanted.items():
         if what not in where:
