@@ -178,7 +178,7 @@ def variants(name: str, roster: Path, folder: Path, lang: str | None, force: boo
     """Give each student of a class data of their own.
 
     LAB is the name of a shipped lab or a folder with scene.toml and lab.toml. ROSTER is a class
-    list, CSV or XLSX, whose first row names its columns in English, Romanian or Italian. It needs
+    list, CSV or XLSX, whose first row names its columns in a language of the sheets. It needs
     an id for each student, and a number if the lab's formula uses one; name and group are optional.
 
     Reports how fair the data are. Writes variants.csv, manifest.json, from which every sheet can be

@@ -20,16 +20,21 @@ def words_in(text: str) -> frozenset[str]:
 
 SIGNS = {
     +1: "+ +1 1 ↺ ⟲ ↶ plus piu pos poz positive positiv positivo positiva pozitiv pozitiva"
-    " positif положительно",
-    -1: "- -1 ↻ ⟳ ↷ minus meno neg negative negativ negativo negativa negatif отрицательно",
+    " positif positiven positiver"
+    " положительно положительное положительныи плюс",
+    -1: "- -1 ↻ ⟳ ↷ minus meno neg negative negativ negativo negativa negatif negativen negativer"
+    " отрицательно отрицательное отрицательныи минус",
 }
 """The ways to write a sense of anything: counter-clockwise and along a guide are positive."""
 TURNED = {
     +1: "ccw acw trig trigonometric trigonometrica trigonometrico levogiro levogira sinistrorso"
-    " sinistrorsa linksdrehend linksherum trigonometrique",
+    " sinistrorsa links linksdrehend linksherum linksdrehung linkslauf trigonometrique"
+    " trigo direct directe",
     -1: "cw clockwise orar orara orario oraria ceas ceasornic ceasornicului"
     " ceasului acelor orologio lancette destrogiro destrogira destrorso destrorsa uhrzeigersinn"
-    " rechtsdrehend rechtsherum horaire horario horaria aiguilles agujas часовои",
+    " uhrzeiger uzs uz rechts rechtsdrehend rechtsherum rechtsdrehung rechtslauf horaire horario"
+    " horaria aiguilles agujas manecillas dextrogiro dextrogira indirect indirecte retrograde"
+    " часовои часов час чс",
 }
 """Words for a sense of rotation, without diacritics."""
 SLIDING = {
@@ -42,7 +47,7 @@ SLIDING = {
 ROUND = words_in(
     "anti counter contra contrar contrara contro contrario contraria invers inversa inverso"
     " inversul opus opusa opposto opposta opposite against"
-    " gegen entgegen inverse contraire против"
+    " gegen entgegen inverse contraire против пр"
 )
 """Words or prefixes that reverse the word after them."""
 ANTI = "anti"
@@ -52,10 +57,21 @@ FILLING = words_in(
     " sens sensul sensului senso sense direction direzione directie directia verso wise s sensu"
     " rotatie rotatia rotatiei rotazione rotation rot turns turning miscare miscarii ace lui"
     " pe per con cu alle all hand hands im den dem der die du en sentido hacia lo"
-    " dans des les el las d une montre reloj по стрелке стрелки хода ходу"
+    " dans des les el las d une montre reloj math mathematisch mathematischen mathematischer"
+    " mathematically matematic drehend herum drehung drehsinn sinn d mit"
+    " по стрелке стрелки стр хода ходу направление"
 )
 """Words that carry no sense."""
-SHORT = {"or": "orar", "ant": "antiorar", "antior": "antiorar", "anticl": "anticlockwise"}
+SHORT = {
+    "or": "orar",
+    "ant": "antiorar",
+    "antior": "antiorar",
+    "hor": "horaire",
+    "antihor": "antihoraire",
+    "clock": "clockwise",
+    "anticl": "anticlockwise",
+    "guzs": "gegenuzs",
+}
 """Abbreviations and the words they stand for."""
 BESIDE = re.compile(r"^\s*[+\-\N{MINUS SIGN}\N{EN DASH}]|\(\s*[+\-\N{MINUS SIGN}\N{EN DASH}]\s*\)")
 """A sign before words, or in brackets. It must agree with the words."""
@@ -104,7 +120,7 @@ def plain_words(text: str) -> list[str]:
     """The words of a text without case, diacritics and punctuation; c.c.w. is one word."""
     spread = unicodedata.normalize("NFD", text.casefold())
     plain = "".join(sign for sign in spread if not unicodedata.combining(sign))
-    plain = re.sub(r"\b([a-z])\.\s?(?=[a-z]\b)", r"\1", plain)
+    plain = re.sub(r"\b([^\W\d_])\.\s?(?=[^\W\d_]\b)", r"\1", plain)
     return re.findall(r"[^\W_]+|[^\w\s.,;:()'’/-]+", plain)
 
 

@@ -253,7 +253,11 @@ ABSENT = message(
     "leave that row out; or put the student into the class list, run graphkin variants "
     "with --force into the same folder, and grade again"
 )
-FIELD, VALUE = ("field", "câmp", "mărime", "campo", "quantity"), ("value", "valoare", "valore")
+FIELD = (
+    *("field", "câmp", "mărime", "campo", "quantity", "feld", "größe", "champ", "grandeur"),
+    *("magnitud", "поле", "величина"),
+)
+VALUE = ("value", "valoare", "valore", "wert", "valeur", "valor", "значение")
 """Column heads of a file that holds one student's answers, a field in each row."""
 MOST_FIELDS = 1000
 """The most rows of a file that holds one student's answers, a field in each row."""

@@ -190,21 +190,31 @@ def columns(keys: Keys, answers: Any, sizes: Any, allowed: Any) -> None:
 def in_other_units(keys: Keys, answers: Any, sizes: Any) -> None:
     """Raise RosterError where all columns of one unit are off by the same power of ten.
 
-    These are the lengths in a plan, or speeds and accelerations together.
+    These are the lengths in a plan, the strokes, or speeds and accelerations together. Most of
+    their answers are off, and the middle one of each column: a few students have other slips.
+    A single column counts only where nearly all of its answers are off.
     """
-    groups: dict[str, list[int]] = {}
+    groups: dict[tuple[str, bool], list[int]] = {}
     for place, field in enumerate(keys.fields):
         item = keys.standards[0].item[field]
-        if item.what in ("segment", "value") and item.unit.partition("/")[0] in LENGTHS:
-            groups.setdefault(item.what, []).append(place)
+        length, per, _ = item.unit.partition("/")
+        if item.what in ("segment", "value") and length in LENGTHS:
+            groups.setdefault((item.what, bool(per)), []).append(place)
     with np.errstate(all="ignore"):
         powers = np.log10(answers / abs(sizes))
+        powers = np.where(np.isfinite(powers), powers, np.nan)
     problems = []
     for places in groups.values():
-        own = powers[:, places][np.isfinite(powers[:, places])]
-        power = round(float(np.median(own))) if len(own) >= FEW else 0
-        centred = abs(np.median(own) - power) <= CENTRED if power else False
-        if centred and all(is_off(powers[:, place], power) for place in places):
+        group = powers[:, places]
+        given = int((~np.isnan(group)).sum())
+        middle = float(np.nanmedian(group)) if given >= FEW else 0.0
+        power = round(middle)
+        if not power or abs(middle - power) > CENTRED:
+            continue
+        share = MOST if places[1:] else MIXED
+        middles = [np.nanmedian(each) for each in group.T if not np.isnan(each).all()]
+        every = all(abs(each - power) < TENFOLD for each in middles)
+        if every and (abs(group - power) < TENFOLD).sum() >= share * given:
             problems.append(of_unit(keys, places, 10.0**power))
     if problems:
         raise RosterError(problems)

@@ -162,7 +162,7 @@ def cause_counts(graded: Sequence[Graded]) -> list[tuple[EarnedCause, int, int]]
     students: Counter[tuple[str, str]] = Counter()
     known: dict[tuple[str, str], EarnedCause] = {}
     for each in graded:
-        explained = sum(shown(mark) is Status.CAUSE for mark in worth(each))
+        explained = sum(mark.status is Status.CAUSE for mark in worth(each))
         for cause in each.causes:
             name = cause.name, cause.either
             answers[name] += explained

@@ -13,6 +13,7 @@ import msgspec
 from msgspec import Struct
 from msgspec.structs import replace
 
+from graphkin.classroom.grading.answers import FIELD
 from graphkin.classroom.grading.graded import Decision, EarnedMark, Graded
 from graphkin.classroom.lab.items import asked_of, worth
 from graphkin.classroom.lab.lab_model import Item, Rubric
@@ -35,12 +36,12 @@ EMPTY = b"\xef\xbb\xbfid;field;points;reason\r\n"
 """The file without decisions."""
 HEADS: Mapping[str, Sequence[str]] = {
     "id": NAMES["id"],
-    "field": ("câmp", "mărime", "campo", "quantity"),
-    "points": ("puncte", "punctaj", "punti", "punteggio"),
-    "reason": ("why", "motiv", "motivul", "motivo"),
+    "field": FIELD,
+    "points": ("puncte", "punctaj", "punti", "punteggio", "punkte", "puntos", "баллы"),
+    "reason": ("why", "motiv", "motivul", "motivo", "grund", "begründung", "motif", "причина"),
 }
 """The accepted names of its columns."""
-WHOLE = ("total", "totale")
+WHOLE = ("total", "totale", "gesamt", "всего")
 """The field names that mean the whole form."""
 ASKED = "?"
 """The points of a request that is not decided yet."""

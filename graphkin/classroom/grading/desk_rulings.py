@@ -15,6 +15,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
+from graphkin.classroom.grading.answers import FIELD
 from graphkin.classroom.grading.decisions import Deciding
 from graphkin.classroom.grading.graded import HANDWRITTEN, Answer, Decision
 from graphkin.classroom.lab.lab_model import Item
@@ -29,11 +30,14 @@ APPEALS = "appeals.csv"
 """The file of a report folder that holds the appeals."""
 HEADS: Mapping[str, Sequence[str]] = {
     "id": NAMES["id"],
-    "field": ("câmp", "mărime", "campo", "quantity"),
-    "text": ("appeal", "contestație", "contestaţie", "ricorso", "testo"),
+    "field": FIELD,
+    "text": (
+        *("appeal", "contestație", "contestaţie", "ricorso", "testo", "einspruch", "einwand"),
+        *("réclamation", "texte", "reclamación", "texto", "апелляция", "текст"),
+    ),
 }
 """The accepted names of its columns."""
-WHOLE = ("", "total", "totale")
+WHOLE = ("", "total", "totale", "gesamt", "всего")
 """The fields of an appeal about the whole form."""
 LONGEST = 1000
 """The most characters of an appeal."""

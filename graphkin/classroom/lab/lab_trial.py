@@ -8,7 +8,7 @@ from math import isnan
 
 from msgspec import Struct
 
-from graphkin.classroom.grading.neighbours import Neighbours, compared, pencil_faults
+from graphkin.classroom.grading.neighbours import Neighbours, compared, pencil_faults, unsure_fields
 from graphkin.classroom.lab.fairness import Fairness, Fault, judged
 from graphkin.classroom.lab.items import asked_fields, items
 from graphkin.classroom.lab.lab_model import (
@@ -49,7 +49,8 @@ class LabTrial(Struct, frozen=True):
     draws; ``unmarked`` are fields that are asked and earn nothing.
 
     ``compared`` are the students of one class whose variants can be drawn, with the data that the
-    class would get. ``neighbours`` compares these variants. ``coarse`` maps names to faults, for
+    class would get. ``neighbours`` compares these variants; ``unsure`` are the fields of each that
+    hardly any drawing determines. ``coarse`` maps names to faults, for
     those of the first ``pencilled`` fair variants that a pencil draws less accurately than the lab
     allows. ``symbols`` are the markup of fields with their units.
     """
@@ -62,6 +63,7 @@ class LabTrial(Struct, frozen=True):
     unmarked: tuple[str, ...] = ()
     compared: tuple[Assigned, ...] = ()
     neighbours: Neighbours | None = None
+    unsure: tuple[tuple[str, ...], ...] = ()
     pencilled: int = 0
     coarse: Mapping[str, Fault] = {}
     symbols: Mapping[str, str] = {}
@@ -128,6 +130,7 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
     every = assigned(lab, students[:CLASS])
     pencilled, coarse = drawn_coarsely(lab, names, many, fairness)
     drawn_at_all = [each for each in every if each.flattest is not None]
+    standards = held_against(lab, drawn_at_all)
     return LabTrial(
         lab,
         names,
@@ -136,7 +139,8 @@ def tried(lab: Lab, count: int = TRIED) -> LabTrial:
         tuple(unasked if sound else ()),
         tuple(unmarked),
         tuple(drawn_at_all),
-        compared(held_against(lab, drawn_at_all)),
+        compared(standards),
+        tuple(map(unsure_fields, standards)),
         pencilled,
         coarse,
         {item.field: f"{item.symbol}, {item.unit.replace('²', '^2')}" for item in form},
@@ -229,6 +233,8 @@ def trial_lines(outcome: LabTrial) -> Iterator[str]:
     yield from labelled("scales", lines_of(scale_table(outcome, english)))
     compared = [each.student.id for each in outcome.compared]
     yield from labelled("apart", apart_lines(outcome.neighbours, compared, who))
+    unsure = list(zip(compared, outcome.unsure, strict=True))
+    yield from labelled("unsure", unsure_lines(lab, unsure, who))
     yield from labelled("marks", list(mark_lines(outcome)))
 
 
@@ -298,6 +304,17 @@ def fields_by_whom(many: Iterable[tuple[str, Sequence[str]]], who: str) -> Itera
             found.setdefault(field, []).append(name)
     rows = [(field, str(len(names)), f"{who} {some(names)}") for field, names in found.items()]
     yield from table(("field", "times", "whose"), rows) if rows else ["none"]
+
+
+def unsure_lines(lab: Lab, unsure: Sequence[tuple[str, Sequence[str]]], who: str) -> list[str]:
+    """The fields that hardly any drawing can decide, with their students, known before the exam."""
+    if not any(fields for _, fields in unsure):
+        return ["none"]
+    return [
+        *fields_by_whom(unsure, who),
+        f"a careful drawing is off there by more than {100 * lab.rubric.cap:g} % of the value;"
+        " pencil in [fair] limits that",
+    ]
 
 
 def some(names: Sequence[str]) -> str:

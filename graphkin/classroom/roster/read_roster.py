@@ -1,4 +1,4 @@
-"""A class list: one student a row, with columns named in any of three languages.
+"""A class list: one student a row, with columns named in any language of the pages.
 
 A column of ids is required, and one of numbers if the lab's rule is a formula of the number. Name
 and group are printed if given; every other column is kept unchanged.
@@ -29,25 +29,45 @@ NAMES = {
     what: tuple(names.split("; "))
     for what, names in {
         "number": "no; nr; nr.; n; no.; n.; num; nr crt; nr. crt.; număr; număr de ordine; numero; "
-        "numero d'ordine; student number; n°; nº",
+        "numero d'ordine; student number; n°; nº; nummer; lfd. nr.; laufende nummer; numéro; "
+        "numéro d'ordre; número; número de orden; №; № п/п; номер; порядковый номер",
         "id": "id number; student id; studentid; registration; registration number; sis user "
         "id; matricol; nr. matricol; număr matricol; cod; cod student; matricola; numero "
         "di matricola; n. matricola; codice; id student; id studente; identificator; "
-        "identificativo; code; student code; codice studente",
+        "identificativo; code; student code; codice studente; matrikelnummer; matrikel-nr.; "
+        "matr.-nr.; matrikel; matrnummer; mat.-nr.; immatrikulationsnummer; numéro étudiant; "
+        "n° étudiant; numéro d'étudiant; n° d'étudiant; num. étudiant; identifiant; matricule; "
+        "número de matrícula; n.º de matrícula; matrícula; núm. de matrícula; expediente; "
+        "número de expediente; n.º de expediente; número de estudiante; código; № зачётки; "
+        "номер зачётки; зачётка; № зачётной книжки; номер зачётной книжки; "
+        "№ студенческого билета; номер студенческого билета; студенческий билет; шифр; "
+        "шифр студента; код; код студента",
         "name": "full name; student; student name; nume; numele; nume și prenume; nume prenume; "
         "numele și prenumele; nome; nome e cognome; cognome e nome; nominativo; studente; "
         "numele studentului; numele și prenumele studentului; numele complet; nume "
         "complet; nume student; nome completo; nome studente; nome dello studente; nome "
-        "cognome; cognome nome; name and surname; surname and name",
+        "cognome; cognome nome; name and surname; surname and name; last name, first name; "
+        "surname, first name; first name last name; name, vorname; name und vorname; nachname, "
+        "vorname; vorname name; vorname nachname; vorname und name; vorname und nachname; "
+        "vollständiger name; studierende; studierender; studierende(r); nom et prénom; nom, "
+        "prénom; nom prénom; prénom nom; prénom et nom; nom complet; étudiant; étudiante; "
+        "nombre y apellidos; apellidos y nombre; apellidos, nombre; nombre apellidos; nombre "
+        "completo; estudiante; alumno; alumna; alumno/a; фио; ф.и.о.; фамилия, имя; фамилия и "
+        "имя; имя и фамилия; фамилия имя; имя фамилия; фамилия имя отчество; фамилия, имя, "
+        "отчество; студент",
         "first": "first name; first names; given name; given names; forename; prenume; prenumele; "
-        "prenume student; prenumele studentului",
+        "prenume student; prenumele studentului; vorname; vornamen; rufname; prénom; prénoms; "
+        "nombre; nombres; имя",
         "last": "surname; last name; family name; nume de familie; numele de familie; cognome; "
-        "cognome studente; cognome dello studente",
+        "cognome studente; cognome dello studente; nachname; familienname; zuname; nom; nom de "
+        "famille; apellidos; apellido; primer apellido; фамилия",
         "group": "class; section; grupă; grupa; grupa/semigrupa; semigrupa; semigrupă; gruppo; "
-        "classe; sezione; seria",
+        "classe; sezione; seria; gruppe; übungsgruppe; seminargruppe; studiengruppe; kurs; klasse; "
+        "semestergruppe; groupe; groupe de td; groupe de tp; grupo; grupo de prácticas; clase; "
+        "sección; группа; подгруппа; учебная группа; класс",
     }.items()
 }
-"""The names of each column, in English, Romanian and Italian."""
+"""The names of each column, in every language of the pages."""
 NAMED = {"name", "first", "last"}
 """Columns that together form a name.
 
@@ -134,7 +154,9 @@ def lost_zeros(sheet: Spreadsheet, column: int) -> str:
 def found_columns(sheet: Spreadsheet, faults: TableProblems, numbered: bool) -> dict[str, int]:
     """The column of each kind of data; a missing required column is recorded."""
     where = columns(sheet, NAMES)
-    wanted = {"id": ("matricol", "matricola")}
+    wanted: dict[str, tuple[str, ...]] = {
+        "id": ("matricol", "matricola", "Matrikelnummer", "matricule", "matrícula")
+    }
     wanted |= {"number": ("nr", "numero")} if numbered else {}
     for what, others in wanted.items():
         if what not in where:

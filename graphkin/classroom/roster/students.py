@@ -59,7 +59,10 @@ def counted(students: Iterable[Student]) -> Counted:
     return "sheets" if any(each.part for each in students) else "students"
 
 
-HEADS = ("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba")
+HEADS = (
+    *("language", "lang", "limba", "limbă", "lingua", "roster language", "roster limba"),
+    *("sprache", "langue", "idioma", "lengua", "язык"),
+)
 """The names of a column of languages."""
 NAMES = {
     "de": "de ger deu german deutsch germana tedesco tedesca",
@@ -135,6 +138,9 @@ EMAIL = (
     "adresă e-mail",
     "indirizzo e-mail",
     "indirizzo di posta elettronica",
+    *("e-mail-adresse", "mailadresse", "adresse e-mail", "adresse mail", "courriel"),
+    *("correo", "correo electrónico", "dirección de correo"),
+    *("почта", "эл. почта", "электронная почта", "адрес электронной почты"),
 )
 """The names of a column of e-mail addresses."""
 Match = Literal["", "id", "email"]

@@ -14,12 +14,12 @@ from graphkin.classroom.lab.lab_model import Lab, exact_text
 from graphkin.classroom.lab.lab_trial import (
     apart_lines,
     data_words,
-    fields_by_whom,
     limit_words,
     lines_of,
     rule_words,
     spread_table,
     spreads,
+    unsure_lines,
 )
 from graphkin.classroom.roster.students import Student, counted
 from graphkin.classroom.variants.assign import (
@@ -162,22 +162,11 @@ def class_lines(lab: Lab, found: Sequence[Assigned]) -> Iterator[str]:
     yield from labelled("spread", lines_of(spread_table(found_spreads, words("en"))))
     yield from labelled("apart", apart_lines(neighbours, names, "id"))
     unsure = list(zip(names, map(unsure_fields, standards), strict=True))
-    yield from labelled("unsure", unsure_lines(unsure, f"{100 * lab.rubric.cap:g} %"))
+    yield from labelled("unsure", unsure_lines(lab, unsure, "id"))
     if not lab.rule.is_drawn:
         yield from labelled(
             "note", alike_lines([each.student for each in found if each.student.part < 2])
         )
-
-
-def unsure_lines(unsure: Sequence[tuple[str, Sequence[str]]], cap: str) -> list[str]:
-    """The fields that hardly any drawing can decide, with their students, known before the exam."""
-    if not any(fields for _, fields in unsure):
-        return ["none"]
-    return [
-        *fields_by_whom(unsure, "id"),
-        f"a careful drawing is off there by more than {cap} of the value;"
-        " pencil in [fair] limits that",
-    ]
 
 
 def alike_lines(students: Sequence[Student]) -> list[str]:

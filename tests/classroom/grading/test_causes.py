@@ -16,7 +16,7 @@ from msgspec.structs import replace
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants
 from graphkin.classroom.grading.class_marking import Book, graded_class
-from graphkin.classroom.grading.class_report import result_lines
+from graphkin.classroom.grading.class_report import cause_counts, result_lines
 from graphkin.classroom.grading.feedback import notes, points_words, rows
 from graphkin.classroom.grading.graded import Answer
 from graphkin.classroom.grading.grading_files import cause_text
@@ -189,6 +189,8 @@ def test_all_senses_reversed_are_worth_no_more_than_blank_ones():
     other = given({f: -marker.standard.key[f] for f in senses})
     found = marker.mark(taker(), {**key, **other})
     assert [cause.name for cause in found.causes] == ["sense_reversed"]
+    ((_, answers, students),) = cause_counts([found])
+    assert (answers, students) == (len(senses), 1)
     assert found.earned <= blank
     lost = points_words(found.points - found.earned, words("en"))
     told = notes(found, words("en"))[0]
@@ -396,6 +398,25 @@ def test_columns_in_another_unit_are_told_and_nothing_is_marked(change, columns,
         whole_class(change)
     assert columns in str(caught.value)
     assert mend in str(caught.value)
+
+
+@pytest.mark.parametrize("others", range(5))
+def test_other_slips_of_a_few_do_not_hide_another_unit(others):
+    """All are in mm/s; up to four of twelve are in m/s, or have another scale too."""
+    takers, answers = keys_of(12)
+    slips = [lambda _, v: v, lambda f, v: v * 400 if f[0] in "va" else v]
+    given = {
+        who: written(row, slips[i % 2] if i < others else all_in_mm)
+        for i, (who, row) in enumerate(answers.items())
+    }
+    with pytest.raises(RosterError, match="another unit") as caught:
+        graded_class(book_of("pump"), takers, given)
+    assert '"v_D", "a_D"' in str(caught.value)
+
+
+def all_in_mm(name: str, value: float) -> float:
+    """The speeds and accelerations a thousand times as large; lengths and strokes stay."""
+    return value * 1000 if name in ("v_D", "a_D") else value
 
 
 def test_half_a_class_in_another_unit_is_marked():

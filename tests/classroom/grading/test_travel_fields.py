@@ -7,13 +7,16 @@ from functools import cache
 from math import asin, degrees, sqrt
 from pathlib import Path
 
+import numpy as np
 import pytest
 from msgspec.structs import replace
 
 from graphkin.classroom.grading.answer_numbers import read_answer
 from graphkin.classroom.grading.causes import Variants, constructed
+from graphkin.classroom.grading.class_look import in_other_units
 from graphkin.classroom.grading.class_marking import standards
 from graphkin.classroom.grading.feedback import cause_words, quantity
+from graphkin.classroom.grading.keys import Keys
 from graphkin.classroom.grading.marking import Marker
 from graphkin.classroom.grading.standard import Standard, standard
 from graphkin.classroom.lab.items import asked_fields
@@ -23,7 +26,7 @@ from graphkin.mechanism import Mechanism
 from graphkin.scene import scene_files
 from graphkin.scene.read_scene import read_text
 from graphkin.text import words
-from graphkin.text.errors import SceneError
+from graphkin.text.errors import RosterError, SceneError
 
 TRAVELS = {
     "offset-slider-crank": "strokes = [3]\ntime_ratios = [3]",
@@ -180,6 +183,18 @@ def test_the_tolerance_is_that_of_the_pencil_in_both_dead_positions():
     assert own.tolerance["H_3"].pencil > sqrt(2) * own.rubric.point * mm
     sheet = written(own.key) | {"H_3": f"{0.9 * own.key['H_3']:.4f}"}
     assert marked(own, sheet)["H_3"][0] == "WRONG"
+
+
+def test_strokes_in_metres_do_not_hide_that_speeds_are_in_millimetres():
+    keys = Keys.of([standard_of("offset-slider-crank").expectation])
+    units = [keys.standards[0].item[field].unit for field in keys.fields]
+    per_second = np.array([unit.startswith("m/") for unit in units])
+    assert "m" in units and per_second.sum() > 1
+    sizes = np.repeat(keys.sizes, 8, axis=0)
+    with pytest.raises(RosterError, match="another unit") as caught:
+        in_other_units(keys, abs(sizes) * np.where(per_second, 1000.0, 1.0), sizes)
+    assert "H_3" not in str(caught.value)
+    in_other_units(keys, abs(sizes), sizes)
 
 
 def test_variants_of_a_class_have_the_keys_of_single_ones():

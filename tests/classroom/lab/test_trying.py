@@ -15,6 +15,7 @@ from graphkin.classroom.lab.new_lab import new_lab
 from graphkin.classroom.lab.read_lab import read_lab
 from graphkin.classroom.roster.students import Student
 from graphkin.classroom.variants.assign import assigned
+from graphkin.classroom.variants.class_files import class_lines
 from graphkin.text import words
 from graphkin.text.errors import PageError, SceneError
 from tests.classroom.lab.singles import ROOT, mechanism_of, sheets_of
@@ -143,6 +144,18 @@ def test_a_new_lab_is_in_nobodys_way(tmp_path):
 BY_NUMBER = (
     'graphkin = 1\n[variants]\nset = { n = "number" }\n[marks]\nv_D_mm = 1\na_D_mm = 1\n[fair]\n'
 )
+
+
+def test_what_hardly_any_drawing_settles_is_named_as_in_the_report_on_the_class():
+    lab = read_lab("slotted-lever")
+    trial = tried(lab, 12)
+    report = class_lines(lab, trial.compared)
+    from_class, from_trial = (
+        "\n".join(lines).partition("\nunsure ")[2].partition("pencil in [fair] limits that")
+        for lines in (report, trial_lines(trial))
+    )
+    assert from_trial[:2] == from_class[:2]
+    assert "epsilon_4" in from_trial[0] and from_trial[1]
 
 
 def test_to_whom_a_formula_gives_data_too_near_to_another_s_is_told(mine):

@@ -70,12 +70,48 @@ Nr.,Nr. matricol,Nume și prenume,Grupă
 nr crt,MATRICOL,Numele și prenumele,Grupa
 N.,Matricola,Nome e cognome,Gruppo
 Numero,Numero di matricola,Nominativo,CLASSE
+Nr.,Matrikelnummer,"Name, Vorname",Gruppe
+lfd. Nr.,Matrikel-Nr.,Vorname Name,Übungsgruppe
+Nummer,Matr.-Nr.,Name und Vorname,Kurs
+N°,Numéro étudiant,"Nom, prénom",Groupe
+Numéro,N° étudiant,Nom et prénom,Groupe de TD
+Nº,Número de matrícula,"Apellidos, nombre",Grupo
+Número,Expediente,Apellidos y nombre,Clase
+№,№ зачётки,ФИО,Группа
+№ п/п,Номер зачётной книжки,Фамилия и имя,группа
 "number","id","name","group\""""
 
 
 @pytest.mark.parametrize("head", HEADS.splitlines())
-def test_heads_are_known_in_three_languages_whatever_their_case(saved, head):
+def test_heads_are_known_in_every_language_whatever_their_case(saved, head):
     assert read_roster(saved(PLAIN.replace("number,id,name,group", head)), numbered=True) == READ
+
+
+@pytest.mark.parametrize("heads", ["Name;Vorname", "Nom;Prénom", "Apellidos;Nombre", "Фамилия;Имя"])
+def test_a_name_in_two_columns_is_one_name(saved, heads):
+    (one,) = read_roster(saved(f"id;{heads};E-Mail\n7;Lee;Ann;a@b.c\n"))
+    assert one.name == "Lee Ann"
+
+
+def test_a_name_with_a_comma_under_one_head_stays_one_name(saved):
+    text = "Nr.;Matrikelnummer;Name, Vorname;Gruppe;E-Mail\n1;310001;Müller, Jörg;A;j@b.c\n"
+    (one,) = read_roster(saved(text), numbered=True)
+    assert (one.id, one.number, one.name, one.group) == ("310001", 1, "Müller, Jörg", "A")
+
+
+HEADS_BESIDE = [
+    ("E-Mail-Adresse", "Sprache"),
+    ("Adresse e-mail", "Langue"),
+    ("Correo electrónico", "Idioma"),
+    ("Эл. почта", "Язык"),
+]
+
+
+@pytest.mark.parametrize("heads", HEADS_BESIDE)
+def test_addresses_and_languages_are_understood_in_every_language(saved, heads):
+    told = []
+    read_roster(saved(f"id;name;{';'.join(heads)}\n7;Ann;a@b.c;de\n"), tell=told.append)
+    assert not told
 
 
 def test_no_name_of_a_column_means_two_things():
