@@ -52,8 +52,9 @@ export function move(x) {
   follow_pins();
 }
 
-/** End a movement: all labels that have room reappear. */
-function rest() {
+/** End a movement: all labels that have room reappear, and all numbers are of this place. */
+export function rest() {
+  clearTimeout(resting);
   state.going = false;
   put();
   halos();
