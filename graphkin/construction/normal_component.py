@@ -585,7 +585,7 @@ class KleinComponent(NormalComponent, frozen=True, kw_only=True):
         fields |= self.corner_symbols(drawing, *self.lettered)
         times = drawing.scales.of_bar("acceleration")  # scale against that of the circles
         larger = drawing.words("step.klein-larger", m=figure(drawing, times))
-        fields["more"] = "" if times == 1 else larger
+        fields["more"] = "" if times == 1 or drawing.lengths != "drawn" else larger
         yield self.corner, drawing.words("step.klein", **fields)
         yield self.over, drawing.words("step.klein-circles", **fields)
         yield self.vector, drawing.words("step.klein-chord", **fields)

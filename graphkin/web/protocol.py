@@ -25,6 +25,7 @@ from graphkin.construction.core.kind import (
 )
 from graphkin.construction.core.naming import segment_of
 from graphkin.construction.core.program import Part, Plane, Program, Step, is_set_on, plan_vector
+from graphkin.construction.core.quantities import FORCE
 from graphkin.construction.higher_class.divided_point import DividedPoint
 from graphkin.construction.higher_class.two_trials import divided_alone
 from graphkin.construction.links.idle_links import IDLE
@@ -289,7 +290,9 @@ class ProtocolSentence(Struct, frozen=True):
     ``of`` are the steps of the reasons; ``letters`` are the names of the crossings as their labels
     have them. ``ends`` are the parts of the work that the sentence completes on its sheet.
     ``aside`` says what is drawn next to the drawing for the scene's position alone. ``rates`` are
-    the links whose rates it reads off.
+    the links whose rates it reads off. ``open`` is the sentence with gaps for the lengths of
+    vectors, where scales are kept and rates are not; ``fallen`` is the one for lengths of zero.
+    Both are empty for a sentence that always holds.
     """
 
     sheet: int
@@ -301,6 +304,8 @@ class ProtocolSentence(Struct, frozen=True):
     ends: tuple[Part, ...]
     aside: str = ""
     rates: tuple[str, ...] = ()
+    open: str = ""
+    fallen: str = ""
 
 
 class Timed(Struct, frozen=True):
@@ -373,7 +378,7 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
         labels = labels_of(sheet)
         names |= labels
         seen = {one.step for one in marks if one.step is not None}
-        said += spoken(place, sheet.drawing, own, staged, labels, seen)
+        said += spoken(place, sheet.drawing, own, staged, labels, seen, reopened(sheet, own))
         details = (scale_words(times) for times in sheet.enlarged)
         words = sheet.drawing.words
         in_details = words.clauses(words("screen.detail", scale=each) for each in details)
@@ -398,6 +403,23 @@ def telling(sheets: Sequence[ScreenSheet]) -> PageProtocol:
         tuple(found.number for found in lines_of(sheets) if found.part in (Part.CENTRE, Part.POLE)),
         {step: args for step in shown if (args := square_to(program.steps[step]))},
     )
+
+
+def reopened(sheet: ScreenSheet, own: Sequence[Sentence]) -> list[tuple[str, str]]:
+    """The markup of each sentence with gaps for lengths, and with lengths of zero.
+
+    Both are empty where the sentence does not differ.
+    """
+    if sheet.drawing.kind == FORCE:
+        return [("", "")] * len(own)
+    others = [
+        in_parts(replace(sheet, drawing=replace(sheet.drawing, lengths=lengths)))[0]
+        for lengths in ("open", "none")
+    ]
+    return [
+        (a.markup, b.markup) if a.markup != one.markup else ("", "")
+        for one, a, b in zip(own, *others, strict=True)
+    ]
 
 
 def in_parts(sheet: ScreenSheet) -> tuple[list[Sentence], dict[int, int], tuple[Timed, ...]]:
@@ -529,6 +551,7 @@ def spoken(
     staged: Mapping[int, int],
     labels: Mapping[str, str],
     shown: AbstractSet[int],
+    others: Sequence[tuple[str, str]],
 ) -> Iterator[ProtocolSentence]:
     """The sentences of one sheet, on which the steps ``shown`` have marks."""
     steps = drawing.trace.program.steps
@@ -544,18 +567,22 @@ def spoken(
         fresh = [step for step, at in staged.items() if at == stage]
         why = [*of_sentence(drawing, sentence), *reasons(drawing, fresh)]
         found = [crossing for crossing in lines if staged.get(crossing.number) == stage]
-        markup = sentence.markup
+        vectors = [*vectors_found(drawing, sorted(shown & {*fresh}), sentence.markup)]
+        markup, in_gaps, fallen = (
+            drawing.words.clauses((one, *vectors)) if one else ""
+            for one in (sentence.markup, *others[stage])
+        )
         yield ProtocolSentence(
             place,
-            drawing.words.clauses(
-                (markup, *vectors_found(drawing, sorted(shown & {*fresh}), markup))
-            ),
+            markup,
             tuple(text for text, _ in why),
             tuple(shown_by(drawing, step, fresh, shown) for _, step in why),
             tuple(found),
             tuple(labels.get(crossing.name, drawing.symbol(crossing.name)) for crossing in found),
             tuple(part for part in STOPS if last.get(part) == stage),
             rates=tuple(rates_read(drawing, sentence)),
+            open=in_gaps,
+            fallen=fallen,
         )
 
 

@@ -14,9 +14,9 @@ from msgspec.structs import replace
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.given_data import Datum, data, given
 from graphkin.construction.core.layout import lay_out
-from graphkin.construction.core.naming import name_of_sheet, scale_of
+from graphkin.construction.core.naming import drawn_in, length_gap, name_of_sheet, scale_of
 from graphkin.construction.core.program import Part, PlanVector, Step, plan_vector
-from graphkin.construction.core.quantities import CENTRES, FORCE
+from graphkin.construction.core.quantities import CENTRES, FORCE, in_mm
 from graphkin.construction.forces.force_drawing import ForceLayout
 from graphkin.construction.result_tables import unread
 from graphkin.documents.relations import travel_words
@@ -318,7 +318,11 @@ def page_of_steps(
         moves=moves,
         palette=palette(turn, sheets[0].drawing.words),
         turning=data_block("turning", turn_record(sheets, turn, owner)),
-        run=data_block("run", record(sheets, protocol)),
+        run=data_block(
+            "run",
+            record(sheets, protocol)
+            | {"by_rate": [k for k, datum in enumerate(given_data) if datum.by_rate]},
+        ),
     )
     scripts = [bundled(STEP_PAGE)]
     if moves.source:
@@ -514,6 +518,12 @@ def record(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, o
         "aside": protocol.aside,
         "squares": protocol.squares,
         "rates": rates(sheets, protocol),
+        "open": {
+            at: [marked_up(said.open), marked_up(said.fallen)]
+            for at, said in enumerate(protocol.said, 1)
+            if said.open
+        },
+        "lengths": lengths(sheets, protocol),
         "similar": triangles(sheets),
         "ghosts": ghosts(sheets[0], protocol),
         "task": [words("screen.task"), words("screen.begin")],
@@ -528,6 +538,23 @@ def record(sheets: Sequence[ScreenSheet], protocol: PageProtocol) -> dict[str, o
             for sheet in sheets
         },
     }
+
+
+def lengths(
+    sheets: Sequence[ScreenSheet], protocol: PageProtocol
+) -> dict[int, tuple[str, str, str]]:
+    """The arrows whose lengths sentences say, each with its row, kind of sheet and length."""
+    found: dict[int, tuple[str, str, str]] = {}
+    said = "".join(one.open for one in protocol.said)
+    for drawing in (sheet.drawing for sheet in sheets):
+        for arrow, step, value in drawing.steps(drawing.plane):
+            vector = plan_vector(step)
+            if vector is not None and length_gap(arrow) in said:
+                drawn = in_mm(
+                    drawing.words, drawn_in(drawing, drawing.plane, abs(value.tip - value.tail))
+                )
+                found[arrow] = vector.symbol, drawing.kind, drawn
+    return found
 
 
 def alike(hangs: Mapping[int, tuple[int, ...]]) -> list[tuple[tuple[int, ...], list[int]]]:

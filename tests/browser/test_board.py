@@ -171,6 +171,14 @@ def test_levels_count_moves_against_the_fewest_known(kept: Opened, pump: Path):
     ]
 
 
+def test_what_the_page_alone_has_drawn_earns_no_star(kept: Opened, pump: Path):
+    page = begun(kept, pump)
+    button = page.locator("#draw-it")
+    while button.is_enabled() and not levels(page)[0].endswith("Moves: 4; fewest known: 4."):
+        button.click()
+    assert levels(page)[0] == "0 of 3 stars. Moves: 4; fewest known: 4."
+
+
 def test_a_longer_way_and_a_wrong_turn_cost_a_star_each(kept: Opened, pump: Path):
     page = begun(kept, pump)
     typed(page, *LONG[:2], "par AB a", *LONG[2:])

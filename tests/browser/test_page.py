@@ -590,3 +590,124 @@ def test_hostile_names_do_nothing(opened: Opened, pages: Path):
         assert page.locator("header script, main script").count() == 0
         page.evaluate("Promise.allSettled(document.getAnimations().map((each) => each.finished))")
     assert not dialogs, "a name was run"
+
+
+# --- sentences while the page moves ---------------------------------------------------------------
+
+FASTER = """
+graphkin = 1
+title = "Slider-crank of any speed"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+[parameters]
+n1 = { value = 90, min = 60, max = 150, step = 10 }
+[frame]
+O = [0, 0]
+[links.1]
+O-A = 50
+[links.2]
+A-B = 190
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = [0, -20], angle = 0 }
+[[drivers]]
+turn = 1
+angle = 55
+speed = "n1"
+[branches]
+3 = "forward"
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+"""
+"""A crank whose speed can be changed on the page."""
+
+
+def test_a_sentence_says_the_lengths_of_a_changed_speed(opened: Opened, tmp_path: Path):
+    """The scales stay, so that the vectors of the crank pin grow with ω and with its square."""
+    made = step_page(Mechanism(read_text(FASTER, "faster", None, {})), "en")
+    (tmp_path / "faster.html").write_text(made, encoding="utf-8")
+    said = {}
+    for address in ("#step=1", "#step=1&x=118", "#step=1&x=118&set=n1:120"):
+        page = opened(tmp_path / "faster.html", address, **DESKTOP)
+        every = [one.inner_text() for one in page.locator("#steps .say").all()]
+        laid = [one for one in every if "lay off" in one and "mm" in one]
+        rows = [f"#results [data-row='{row}'] td:nth-of-type(2)" for row in ("v_A", "a_A")]
+        said[address] = laid, [page.locator(row).inner_text() for row in rows]
+        law = page.locator("#given li").last
+        assert law.evaluate("law => law.hidden") is ("set" in address)
+    drawn, turned, faster = said.values()
+    assert drawn == turned
+    for before, after, size, power in zip(drawn[0], faster[0], faster[1], (1, 2), strict=True):
+        assert "times as long" in before and "times as long" not in after
+        assert f"{size} mm" in after
+        length = float(before.split(": ")[-1].split()[0])
+        assert float(size) == pytest.approx(length * (120 / 90) ** power, abs=0.01)
+
+
+def test_all_numbers_are_of_one_place_as_soon_as_the_motion_stops(opened: Opened, tmp_path: Path):
+    """The list tells the angular velocity that the table tells, without waiting for a rest."""
+    scene = FASTER + "omega = [2]\n"
+    made = step_page(Mechanism(read_text(scene, "faster", None, {})), "en")
+    (tmp_path / "faster.html").write_text(made, encoding="utf-8")
+    page = opened(tmp_path / "faster.html", "#step=1", stopped=True, **MOVING)
+    said = page.locator("#steps .say", has_text="ω2 =")
+    before = said.inner_text()
+    page.locator("#travel").click()
+    page.clock.run_for(700)
+    page.locator("#travel").click()
+    size = page.locator("#results [data-row='ω2'] td:nth-of-type(1)").inner_text()
+    after = said.inner_text()
+    assert before != after and f" = {size} rad/s" in after
+
+
+CAM = """
+graphkin = 1
+title = "Cam on a gear"
+units = { length = "mm", angle = "deg", speed = "rev/min" }
+module = 3
+[frame]
+O1 = [0, 0]
+O2 = [90, 0]
+[links.1]
+O1-P = 20
+wheel = { centre = "O1", teeth = 20 }
+[links.2]
+O2-R = 30
+wheel = { centre = "O2", teeth = 40 }
+rolls = { on = 1 }
+[links.3]
+B = [0, 0]
+slides = { on = 0, through = "O2", angle = 90, offset = 6 }
+[links.3.cam]
+on = 2
+tip = "roller"
+base = 38
+roller = 9
+clockwise = true
+law = [
+ { to = 110, rise = 24, motion = "modified sine" },
+ { to = 170 },
+ { to = 280, rise = -24, motion = "cycloidal" },
+ { to = 360 },
+]
+[[drivers]]
+turn = 1
+angle = 80
+speed = 400
+[ask]
+velocity = ["B"]
+acceleration = ["B"]
+"""
+"""A cam whose centre of curvature lies on its own centre in a dwell."""
+
+
+def test_a_bar_without_a_length_lays_off_nothing(opened: Opened, tmp_path: Path):
+    made = step_page(Mechanism(read_text(CAM, "cam", None, {})), "en")
+    (tmp_path / "cam.html").write_text(made, encoding="utf-8")
+    page = opened(tmp_path / "cam.html", "#step=1", stopped=True, **DESKTOP)
+    said = page.locator("#steps .say", has_text="from K to O2")
+    assert said.count() == 1 and " mm" in said.inner_text()
+    page.locator("#driver").fill("300")
+    page.clock.run_for(1000)
+    assert said.count() == 0
+    assert page.locator("#steps .say", has_text="k′ falls on o′").count() == 1

@@ -480,8 +480,27 @@ def test_a_drawing_without_a_form_is_saved_and_opened(opened: Opened, run: Run, 
     assert other.evaluate("Object.values(localStorage)") == [before]
 
 
+@pytest.mark.parametrize(("school", "pole"), [("german", "Pv"), ("russian", "p")])
+def test_the_hint_on_typing_signs_the_pole_as_its_page(
+    opened: Opened, run: Run, tmp_path: Path, school: str, pole: str
+):
+    """What it says can be typed, and so can the usual letter."""
+    house = f'graphkin = 1\n[signs]\nset = "{school}"\n'
+    (tmp_path / "house.toml").write_text(house, encoding="utf-8")
+    args = ["--view", "task", "--format", "html", "--lang", "en", "-o", tmp_path]
+    result = run("sheet", "pump", "--house", tmp_path / "house.toml", *args)
+    assert result.exit_code == 0, result.output
+    page = fresh(opened, next(tmp_path.glob("*.html")))
+    assert f"off {pole} AB" in page.locator("#turn-say").inner_text()
+    for number, sign in enumerate((pole, "o"), 1):
+        page.locator("#turn-typed").fill(f"ray {sign} {30 * number}")
+        page.keyboard.press("Enter")
+        assert "nothing here is called" not in page.locator("#turn-say").inner_text()
+        assert page.evaluate("Object.values(localStorage)[0]").count("ray") == number
+
+
 def test_typing_is_spoken_of_where_it_is_possible(opened: Opened, folder: Path):
-    by_keys = RO("board.by_keys")
+    by_keys = RO("board.by_keys", pole="o")
     desk = fresh(opened, page_of(folder)).locator("#turn-say").inner_text()
     phone = fresh(opened, page_of(folder), has_touch=True, is_mobile=True)
     assert desk == f"{RO('board.begin')} {by_keys}"

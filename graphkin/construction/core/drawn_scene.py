@@ -6,7 +6,7 @@ from cmath import phase, rect
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from math import ceil, floor, pi
-from typing import Any
+from typing import Any, Literal
 
 from msgspec import Struct, field
 
@@ -49,6 +49,9 @@ class Drawing(Struct, frozen=True, dict=True):
     a mark. At another position of the same scene the choice could be different.
 
     ``fields`` is the layout of a sheet whose kind lays it out itself.
+
+    ``lengths`` says how sentences give the lengths of vectors laid off: as drawn; as gaps that a
+    page fills while its scales are kept; or as nothing, where a page finds them zero.
     """
 
     kind: str
@@ -64,6 +67,7 @@ class Drawing(Struct, frozen=True, dict=True):
     driven: Mapping[str, Any] = field(default_factory=dict)
     chosen: Drawing | None = None
     fields: Any = None
+    lengths: Literal["drawn", "open", "none"] = "drawn"
 
     @property
     def paper(self) -> SheetPaper:

@@ -525,7 +525,7 @@ class Datum(Struct, frozen=True):
 
     ``sign`` is printed between name and value. A rate may be ``constant`` and have a ``sense``,
     which follows its name after a ``colon``. ``of`` is the printed quantity, ``parameters`` are the
-    parameters that set it.
+    parameters that set it. ``by_rate`` says that it holds for the driver's stated rate alone.
     """
 
     words: str = ""
@@ -537,6 +537,7 @@ class Datum(Struct, frozen=True):
     colon: str = ": "
     of: Quantity | None = None
     parameters: tuple[str, ...] = ()
+    by_rate: bool = False
 
     @property
     def said(self) -> str:
@@ -579,9 +580,8 @@ def data(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[D
         *arcs(scene, words),
         *cams(drawing),
         *closures(drawing),
-        *of_scales(drawing),
-        *(escape(note) for note in [scene.notes.get(words.language)] if note),
     ]
+    notes = (escape(note) for note in [scene.notes.get(words.language)] if note)
     return [
         *(
             Datum(name=name, value=value, parameters=(of,))
@@ -597,6 +597,8 @@ def data(drawing: Drawing, *, solved: bool = True, laws: bool = False) -> list[D
         *fixed_points(scene, words),
         *plates(drawing),
         *map(Datum, sentences),
+        *(Datum(said, by_rate=True) for said in of_scales(drawing)),
+        *map(Datum, notes),
     ]
 
 

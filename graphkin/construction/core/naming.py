@@ -129,6 +129,19 @@ def drawn_between(drawing: Drawing, tail: int, tip: int, plane: Plane) -> OnPape
     return drawn_in(drawing, plane, abs(values[tip] - values[tail]))
 
 
+def length_gap(arrow: int) -> str:
+    """The gap for the drawn length of an arrow, in a sentence that a page completes."""
+    return f"\ue000{arrow}\ue001"
+
+
+def length_drawn(drawing: Drawing, tail: int, tip: int) -> str:
+    """The drawn length of a vector in its plan, in mm, without the unit."""
+    plane = drawing.trace.program.steps[tip].plane
+    if drawing.lengths != "drawn" and (arrow := arrow_of(drawing, tail, tip)):
+        return length_gap(next(n for n, step, _ in drawing.steps(plane) if step is arrow))
+    return in_mm(drawing.words, drawn_between(drawing, tail, tip, plane))
+
+
 def has_no_length(drawing: Drawing, number: int) -> bool:
     """Whether a vector laid off from a point of a plan is zero."""
     start = drawing.trace.program.steps[number].args[0]

@@ -12,6 +12,7 @@ from graphkin.construction.core.naming import (
     driver_index,
     driver_of_rate,
     has_no_length,
+    length_drawn,
     letter_at,
     nearest_side,
     vector_of,
@@ -25,7 +26,6 @@ from graphkin.construction.velocity.relative_motion import (
     AlongGuide,
     LaidOffByRate,
     falls_key,
-    length_drawn,
 )
 from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.numbers.arithmetic import Point, Real

@@ -14,7 +14,7 @@ from graphkin.construction.core.bases import Base, contact_name
 from graphkin.construction.core.component import Component, OwnSizes, Size, components_on
 from graphkin.construction.core.drawn_scene import Drawing
 from graphkin.construction.core.kind import ByHand, Canvas, Construction, GivesRate, Run, Wording
-from graphkin.construction.core.naming import drawn_between, laid_off_words, rate_symbol
+from graphkin.construction.core.naming import laid_off_words, length_drawn, rate_symbol
 from graphkin.construction.core.pen import (
     Pen,
     component_arrow,
@@ -23,7 +23,7 @@ from graphkin.construction.core.pen import (
     second_image,
 )
 from graphkin.construction.core.program import OwnStep, Part, Plane, PlanVector
-from graphkin.construction.core.quantities import EPSILON, in_mm
+from graphkin.construction.core.quantities import EPSILON
 from graphkin.construction.core.relation import Relation, answer, figure, length_of, squared
 from graphkin.construction.core.vocabulary import (
     action,
@@ -512,9 +512,7 @@ class RollingNormal(Component, frozen=True, kw_only=True):
             name=drawing.lettered(self.image),
             vector=self.symbol(drawing),
             omega=self.rate(drawing),
-            drawn=in_mm(
-                drawing.words, drawn_between(drawing, self.start, self.image, drawing.plane)
-            ),
+            drawn=length_drawn(drawing, self.start, self.image),
             **self.symbols(),
             **fields,
         )

@@ -32,11 +32,11 @@ from graphkin.construction.core.kind import (
     construction,
 )
 from graphkin.construction.core.naming import (
-    drawn_between,
     driver_of_rate,
     has_no_length,
     is_driven,
     laid_off_words,
+    length_drawn,
     letter_at,
     rate_symbol,
     turning_with,
@@ -55,7 +55,7 @@ from graphkin.construction.core.palette import (
 )
 from graphkin.construction.core.pen import Pen, about, against, component_arrow, image, letter
 from graphkin.construction.core.program import OwnStep, Plane, Step
-from graphkin.construction.core.quantities import EPSILON, OMEGA, in_mm
+from graphkin.construction.core.quantities import EPSILON, OMEGA
 from graphkin.construction.core.relation import (
     Relation,
     Term,
@@ -428,18 +428,14 @@ def signed(sign: str) -> str:
     return f"^{sign}" if sign else ""
 
 
-def length_drawn(drawing: Drawing, tail: int, tip: int) -> str:
-    """The drawn length of a vector in its plan, in mm, without the unit."""
-    plane = drawing.trace.program.steps[tip].plane
-    return in_mm(drawing.words, drawn_between(drawing, tail, tip, plane))
-
-
 def by_bar(drawing: Drawing, rate: int, fields: dict[str, str]) -> str:
     """The key for the length of a driven pin's vector: by its bar, or in mm.
 
-    Adds to ``fields`` the ratio of that length to the bar.
+    In mm also where a page keeps the scale while the rate changes. Adds to ``fields`` the ratio of
+    that length to the bar.
     """
-    times = drawing.scales.of_bar(drawing.kind) if is_driven(drawing, rate) else 0.0
+    by_scale = is_driven(drawing, rate) and drawing.lengths == "drawn"
+    times = drawing.scales.of_bar(drawing.kind) if by_scale else 0.0
     fields["m"] = figure(drawing, times)
     return {0.0: "-scaled", 1.0: ""}.get(times, "-times")
 
@@ -452,6 +448,11 @@ def falls_key(drawing: Drawing, number: int, start: str) -> str:
     if not start:
         return "step.falls-end"
     return "step.falls" if number in drawing.auxiliary else "step.falls-zero"
+
+
+def falls_here(drawing: Drawing, fields: Mapping[str, str]) -> str:
+    """The sentence for an image at the start of its vector at a page's position of the driver."""
+    return drawing.words("step.falls" if fields["s"] else "step.falls-end", **fields)
 
 
 def rate_words(drawing: Drawing, number: int, rate: int, link: str, letter: str) -> str:
@@ -517,6 +518,8 @@ class TurnedVelocity(LaidOffAboutPivot, GivenVector, frozen=True, kw_only=True):
         fields = self.fields(drawing, role)
         if has_no_length(drawing, self.image):
             return drawing.words(falls_key(drawing, self.image, fields["s"]), **fields)
+        if drawing.lengths == "none":
+            return falls_here(drawing, fields)
         return drawing.words(f"step.turned-velocity{by_bar(drawing, self.omega, fields)}", **fields)
 
     def equations(self, drawing: Drawing, role: str) -> Iterator[Relation]:
@@ -654,6 +657,8 @@ class TurnedAcceleration(LaidOffAboutPivot, GivenVector, EndsComponent, frozen=T
         if role == "end":
             if has_no_length(drawing, self.end):
                 return drawing.words(falls_key(drawing, self.end, fields["s"]), **fields)
+            if drawing.lengths == "none":
+                return falls_here(drawing, fields)
             key = by_bar(drawing, self.omega, fields)
             if key == "-scaled" and not self.is_of_driver(drawing, self.omega):
                 fields["vector"] += f" = {fields['omega']}^2·{self.bar}"

@@ -2,7 +2,7 @@
 import { draw_anew, offer_files } from "./board_files.js";
 import { show_turn } from "./board_marks.js";
 import { byId, page, state, style } from "./board_page.js";
-import { follow_letters, log_of, tell_turn, turn, worded } from "./board_state.js";
+import { follow_letters, log_of, picks, tell_turn, turn, worded } from "./board_state.js";
 import { draw_move } from "./choosing.js";
 import { forget_own_lines, keep_past, redo, undo } from "./history.js";
 import { choose_action, forget_inputs } from "./picking.js";
@@ -40,8 +40,11 @@ function kept_log() {
   }
 }
 
-/** The first message: how one draws, by keys too where there are any. */
-const beginning = () => `${worded("begin")} ${is_typed_here() ? worded("by_keys") : ""}`.trim();
+/** The first message: how one draws, by keys too where there are any, with the page's sign of the pole. */
+const beginning = () => {
+  const pole = (picks["1:"] ?? picks["2:"])?.name ?? "o";
+  return `${worded("begin")} ${is_typed_here() ? worded("by_keys", { pole }) : ""}`.trim();
+};
 
 /** Draw what was kept, in place of what is drawn. */
 function recall_board() {

@@ -6,7 +6,7 @@ import { follow_pins } from "./grab.js";
 import { halos } from "./halos.js";
 import { written } from "./numbers.js";
 import { byId, data, motion, moved, page, state } from "./page.js";
-import { crossings_of, tell_rates, warn } from "./sentences.js";
+import { crossings_of, tell_read, warn } from "./sentences.js";
 import { sheets } from "./sheets.js";
 import { read } from "./values.js";
 import { lift } from "./writing.js";
@@ -52,14 +52,15 @@ export function move(x) {
   follow_pins();
 }
 
-/** End a movement: all labels that have room reappear. */
-function rest() {
+/** End a movement: all labels that have room reappear, and all numbers are of this place. */
+export function rest() {
+  clearTimeout(resting);
   state.going = false;
   put();
   halos();
   look(true);
   if (!state.dead) read();
-  tell_rates();
+  tell_read();
   remember();
 }
 
@@ -87,7 +88,7 @@ function place_driver(x) {
       ? byId("place").dataset.dead
       : "";
   if (!state.dead) read();
-  tell_rates();
+  tell_read();
   page.classList.toggle("silent", state.dead);
   warn(byId("narration"), crossings_of(state.step));
   halos();

@@ -3,7 +3,7 @@ import { html_element } from "./elements.js";
 import { move, place_of } from "./driver.js";
 import { nudge } from "./grab.js";
 import { written } from "./numbers.js";
-import { byId, motion, state } from "./page.js";
+import { byId, data, motion, state } from "./page.js";
 import { rest_from_travel } from "./travel.js";
 import { next_frame, while_down } from "./view.js";
 
@@ -158,6 +158,7 @@ export function tell_figures() {
   const changed = changed_figures().length;
   if (!changed && !rewritten) return;
   rewritten = changed;
+  for (const element of data.by_rate.flatMap(said_of)) element.hidden = changed > 0; // the scales stay as they are
   for (const { element, drawn, name, place, unit } of derived) {
     if (changed) element.innerHTML = `${name} = ${plain(motion.read(place, state.x))}${unit}`;
     else element.replaceChildren(...drawn);

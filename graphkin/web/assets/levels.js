@@ -42,13 +42,14 @@ function level_of({ goals, plan }) {
     number = made.length + turn.lines.length;
   const reached = all_done(goals),
     exact = made.every(({ how, wrong }) => how === "alone" && !wrong);
+  const own = made.some(({ how }) => how !== "help"); // what the page alone has drawn earns nothing
   const name = plan ? turning.plans[plan] : moves[goals[0]].name;
   return {
     name,
     fewest,
     moves: number,
     reached,
-    stars: reached ? 1 + Number(number <= fewest) + Number(exact) : 0,
+    stars: reached && own ? 1 + Number(number <= fewest) + Number(exact) : 0,
   };
 }
 

@@ -2,8 +2,8 @@
 import { html_element } from "./elements.js";
 import { point_at } from "./aiming.js";
 import { tint } from "./halos.js";
-import { rates_read } from "./highlights.js";
-import { byId, copies, data, last, moved, slider, state } from "./page.js";
+import { written } from "./numbers.js";
+import { byId, copies, data, last, motion, moved, slider, state } from "./page.js";
 import { fit, told_by_keys } from "./room.js";
 import { sheets } from "./sheets.js";
 import { size_read } from "./values.js";
@@ -35,7 +35,7 @@ export function say() {
   byId("count").textContent = count;
   slider.setAttribute("aria-valuetext", count);
   tell(byId("narration"), state.step);
-  tell_rates();
+  tell_read();
   byId("narration").scrollTop = 0;
   told_by_keys();
   places.forEach(({ link }, i) => current(link, i + 1 === state.step, "step"));
@@ -96,10 +96,37 @@ export function tell(narration, step) {
   warn(narration, crossings_of(step));
 }
 
-/** Write the rates at the driver's position: for the current step, and after a movement in the list. */
-export function tell_rates() {
-  for (const step of state.going ? [state.step] : Object.keys(data.rates)) tell_rates_of(step);
-  if (rates_read().length) byId("sentence").replaceChildren(...copies(places[state.step - 1].say));
+/** Write what is read at the driver's position: for the current step, and after a movement in the list. */
+export function tell_read() {
+  const told = step => step in data.rates || step in data.open;
+  for (const step of state.going ? [state.step] : places.map((_, i) => i + 1).filter(told)) {
+    tell_rates_of(step);
+    tell_lengths_of(step);
+  }
+  if (told(state.step)) byId("sentence").replaceChildren(...copies(places[state.step - 1].say));
+}
+
+const GAP = /\ue000(\d+)\ue001/g;
+
+/** Write the lengths of vectors into the sentence of a step, once they or the rates are no longer as drawn. */
+function tell_lengths_of(step) {
+  if (!(step in data.open)) return;
+  const place = places[step - 1],
+    [open, fallen] = data.open[step];
+  place.drawn ??= copies(place.say);
+  const values = moved() && !state.dead ? motion.values(state.x) : null;
+  const length_of = arrow => {
+    const [row, kind] = data.lengths[arrow];
+    return values ? written(Math.abs(values[row]) / data.scales[kind], 2) : "?";
+  };
+  const arrows = [...open.matchAll(GAP)].map(([, arrow]) => arrow);
+  const holds = arrows.length
+    ? arrows.every(arrow => length_of(arrow) === data.lengths[arrow][2])
+    : state.figures.every((value, k) => value === motion?.figures[k].start);
+  if (!moved() || holds)
+    return place.say.replaceChildren(...place.drawn.map(one => one.cloneNode(true)));
+  const is_zero = arrows.length && arrows.every(arrow => length_of(arrow) === "0");
+  place.say.innerHTML = is_zero ? fallen : open.replace(GAP, (_, arrow) => length_of(arrow)); // markup of symbols, escaped by its maker
 }
 
 /** Write the rates into the sentence of a step. */

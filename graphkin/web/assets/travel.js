@@ -1,5 +1,5 @@
 // Playing the motion: the driver runs in its sense, round and round or from end to end.
-import { move } from "./driver.js";
+import { move, rest } from "./driver.js";
 import { byId, motion, state } from "./page.js";
 import { called, pause } from "./playing.js";
 
@@ -21,6 +21,7 @@ export function travel() {
 }
 
 export function rest_from_travel() {
+  if (travelling) rest();
   cancelAnimationFrame(travelling);
   travelling = 0;
   traveller.removeAttribute("data-on");

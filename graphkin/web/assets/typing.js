@@ -32,6 +32,8 @@ const PLAIN = { "°": "", "′": "'", "″": "''", ν: "n", τ: "t", ω: "w", ε
 export const typed_form = text =>
   text.replace(/[°′″ντωε−]/g, letter => PLAIN[letter]).replace(/[’]/g, "'");
 
+const USUAL_POLES = { "1:": "o", "2:": "o'" }; // on a board, also where its school signs them otherwise
+
 /** The ways in which a pick is written: its whole name, without words before it, or by the bar or guide of a line. */
 function forms_of(key) {
   const { name, kind } = picks[key],
@@ -43,7 +45,11 @@ function forms_of(key) {
         ? typed_form(plain_words(picks[made[1]].name))
         : whole;
   return [
-    ...new Set([whole, short, short.split(" ").at(-1)].map(form => form.replaceAll(" ", ""))),
+    ...new Set(
+      [whole, short, short.split(" ").at(-1), USUAL_POLES[key] ?? ""].map(form =>
+        form.replaceAll(" ", ""),
+      ),
+    ),
   ].filter(Boolean);
 }
 
