@@ -442,7 +442,7 @@ def test_an_anonymous_desk_names_nobody(report: Path) -> None:
     told = json.dumps([items, [session.item(each["name"]) for each in items]])
     assert len(items) == 4
     assert not [name for name in (*NAMES, *ids()) if name in told]
-    assert "student 1" in told.casefold()
+    assert re.search(r"student \d", told.casefold())  # which one, the class's codes say
 
 
 def test_a_folder_without_anything_is_refused(tmp_path: Path) -> None:
