@@ -360,7 +360,7 @@ def of_scales(drawing: Drawing) -> Iterator[Relation]:
     yield Relation(
         drawing.in_signs("*k*_L"),
         "",
-        "".join(map(" ".join, own_scale(drawing))),
+        own_scale(drawing),
         number,
         "m/mm",
         words("calculation.scale", scale=words.decimal(scales.words)),

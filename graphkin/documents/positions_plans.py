@@ -321,7 +321,7 @@ def in_cells(
         coarser = grid.coarser(box, mm)
         board = drawn(drawing, Field(rect, mm / coarser, box.middle, middle))
         board.labels = [replace(label, height=2.5) for label in board.labels]
-        more = own_scale(drawing, coarser) if coarser > 1 else ""
+        more = coarser_scale(drawing, coarser) if coarser > 1 else ""
         board.marks += number_of(found, each, rect, numbers[each.name], more)
         marks += (
             replace(mark, name=" ".join(at_position(n, each.name) for n in mark.name.split()))
@@ -340,7 +340,7 @@ def lines(grid: PlanGrid, count: int) -> Iterator[Mark]:
             yield LineMark(left + 1, top, right - 1, top, "panel")
 
 
-def own_scale(drawing: Drawing, coarser: float) -> str:
+def coarser_scale(drawing: Drawing, coarser: float) -> str:
     """The scale factor of a plan that is drawn smaller than the others."""
     return f"*k*_{SCALES[drawing.kind][0]} = {scale_text(drawing, coarser)}"
 

@@ -270,7 +270,7 @@ def is_beside(share: Any, off: Any, others: Sequence[float]) -> bool:
     looks like a head beyond it.
     """
     here = float(share[abs(off) <= NEAR].max())
-    free = np.all([abs(off - each) > FREE for each in others], axis=0) if others else True
+    free = free_of(off, others)
     over = np.where(free & (off > OVERSHOT[0]) & (off <= OVERSHOT[1]), share, -1.0)
     under = np.where(free & (off >= UNDERSHOT[0]) & (off < UNDERSHOT[1]), share, -1.0)
     close = over[off <= CLEAR].max() >= CERTAIN or (here < CERTAIN and over.max() >= HEADED)
@@ -286,12 +286,17 @@ def is_passed(
     A ring about the point looks like such a head, but no ring is about that head's tip. For
     ``share``, ``off`` and ``others``, see ``is_beside``.
     """
-    free = np.all([abs(off - each) > FREE for each in others], axis=0) if others else True
+    free = free_of(off, others)
     over = np.where(free & (off > 0) & (off <= CLEAR), steady(share), -1.0)
     if share[abs(off) <= AT].max() >= OWN or over.max() < HEADED:
         return False
     place = tip + float(off[over.argmax()]) * way
     return not is_marked(ink, tip, RINGS, FADED) or is_marked(ink, place, RINGS)
+
+
+def free_of(off: Any, others: Sequence[float]) -> Any:
+    """Where along a vector no head of another point can be."""
+    return np.all([abs(off - each) > FREE for each in others], axis=0) if others else True
 
 
 def is_headed(ink: DrawnInk, tail: complex, tip: complex) -> bool:

@@ -100,13 +100,16 @@ def scale_unit(words: Words) -> str:
     return words.unit("m/mm")
 
 
-def own_scale(drawing: Drawing) -> tuple[tuple[str, str], ...]:
-    """kL per inch or foot of paper, a number and its unit, in these units; otherwise empty."""
+def own_scale(drawing: Drawing, blank: str = "") -> str:
+    """kL per inch or foot of paper with its unit, in these units; otherwise empty.
+
+    ``blank`` replaces the number.
+    """
     words = drawing.words
     if words.length not in IMPERIAL:
-        return ()
-    number = words.decimal(digits(drawing.scales.kL * drawing.scales.metre))
-    return ((number, scale_unit(words)),)
+        return ""
+    number = blank or words.decimal(digits(drawing.scales.kL * drawing.scales.metre))
+    return f"{number} {scale_unit(words)}"
 
 
 def stated_scale(drawing: Drawing, blank: str = "") -> str:
@@ -114,8 +117,9 @@ def stated_scale(drawing: Drawing, blank: str = "") -> str:
 
     ``blank`` replaces the numbers.
     """
-    every = (*own_scale(drawing), (length_scale(drawing), drawing.words.unit("m/mm")))
-    return " = ".join(f"{blank or number} {unit}" for number, unit in every)
+    drawn = f"{blank or length_scale(drawing)} {drawing.words.unit('m/mm')}"
+    own = own_scale(drawing, blank)
+    return f"{own} = {drawn}" if own else drawn
 
 
 def drawn_in(drawing: Drawing, plane: Plane, size: float) -> OnPaper:
