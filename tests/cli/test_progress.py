@@ -36,7 +36,7 @@ def on_terminal(folder: Path, *words: str) -> str:
 @pytest.mark.parametrize(
     ("command", "stages"),
     [
-        ("cycle pump --format gif", ["checking 219 rows", "drawing picture 2 of "]),
+        ("cycle pump --format gif", ["looking for extremes in 219 rows", "drawing picture 2 of "]),
         ("cycle pump --format svg", ["holding 219 rows to the vector loops", "drawing the curves"]),
         ("ranges pump", ["trying variants"]),
         ("new lab mine --from pump", ["trying variants", "ranges have room"]),
