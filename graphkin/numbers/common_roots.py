@@ -186,7 +186,7 @@ def halved(looked: Looked, cells: Cells, half: Array, ranges: Array) -> Cells:
             (
                 np.fmin.reduce(each[:, at], 1),
                 np.fmax.reduce(each[:, at], 1),
-                edge * unknown[:, at].any(axis=1),
+                np.where(unknown[:, at].any(axis=1), edge, 0.0),
             )
             for each, unknown, edge in zip(reach, np.isnan(reach), most, strict=True)
         ]
