@@ -229,8 +229,21 @@ def boxed_answers(drawings: Sequence[Drawing]) -> Iterator[CalculationRow]:
     ]
     if found:
         yield CalculationRow(drawings[0].words("calculation.answers"), heading=True, boxed=True)
-        for line in flowed(found, drawings[0].words("clause_mark"), ROOM - INDENT, LETTER):
+        mark, room = drawings[0].words("clause_mark").rstrip(), ROOM - INDENT
+        marked = [*(f"{each}{mark}" for each in found[:-1]), found[-1]]
+        for line in flowed(narrowed(marked, room), "", room, LETTER):
             yield CalculationRow(line, boxed=True)
+
+
+def narrowed(parts: Sequence[str], room: float) -> list[str]:
+    """The parts of a line; one wider than the room as its words."""
+    return [
+        piece
+        for part in parts
+        for piece in (
+            narrow_words(part, room, LETTER) if extent(part, LETTER)[0] > room else [part]
+        )
+    ]
 
 
 def legends(
@@ -253,15 +266,8 @@ def broken(
     relation: Relation, tag: str, drawing: Drawing, hint: str = "", *, solved: bool
 ) -> Iterator[CalculationRow]:
     """A relation in as many lines as needed, its number on the last one, a hint after it."""
-    parts = relation.parts(solved=solved)
     room = RIGHT - LEFT - NUMBER
-    parts = [
-        piece
-        for part in parts
-        for piece in (
-            narrow_words(part, room, LETTER) if extent(part, LETTER)[0] > room else [part]
-        )
-    ]
+    parts = narrowed(relation.parts(solved=solved), room)
     if relation.blank and not solved:
         parts = [*parts[:-1], f"{parts[-1]} {relation.blank[0]}", *relation.blank[1:]]
     elif relation.result and not (solved or relation.given):

@@ -135,6 +135,15 @@ class Label(Struct, frozen=True):
         high = (bottom - top) / 2
         return spot.x - width / 2, spot.y - high, spot.x + width / 2, spot.y + high
 
+    def whole_area(self, spot: Spot) -> Rect:
+        """The box of the text, or of the circle around it, with the air that a leader keeps."""
+        left, top, right, low = self.area(spot)
+        if self.ring:
+            width, height = self.size()
+            left, right = spot.x - width / 2, spot.x + width / 2
+            top, low = spot.y - height / 2, spot.y + height / 2
+        return left - CLEAR, top - CLEAR, right + CLEAR, low + CLEAR
+
     @property
     def point(self) -> XY:
         """The point that the label names, if its subject is not a segment."""
@@ -189,18 +198,20 @@ def with_leaders(
     doubtful = [*doubtful_ones(labels, spots, marks), *doubtful_letters(labels, spots)]
     if not doubtful:
         return found
-    areas = [label.area(spot) for label, spot in zip(labels, spots, strict=True)]
+    areas = [label.whole_area(spot) for label, spot in zip(labels, spots, strict=True)]
     strong = strong_lines(marks)
     for i in doubtful:
         leaders = [each for each in leaders_to(labels[i], spots[i]) if dist(*each) <= LONGEST]
         if not leaders:
             continue
         crossed = struck(np.array(leaders).reshape(-1, 4), strong)
-        leader = leaders[int(crossed.argmin())]
+        others = [*areas[:i], *areas[i + 1 :]]
+        clear = [not any(clipped(*leader, area) for area in others) for leader in leaders]
         if labels[i].spare and crossed.min():
             found[i] = replace(spots[i], free=False)
-        elif not any(clipped(*leader, area) for area in [*areas[:i], *areas[i + 1 :]]):
-            found[i] = replace(spots[i], leader=leader)
+        elif any(clear):
+            best = np.where(clear, crossed, np.inf).argmin()
+            found[i] = replace(spots[i], leader=leaders[int(best)])
     return found
 
 
@@ -575,8 +586,13 @@ class FieldContent(Struct):
     def obstacles(self, more: Sequence[Mark] = ()) -> tuple[Array, list[Box]]:
         """The lines and boxes that labels avoid: those of the marks, and of some more marks."""
         marks = [*self.marks, *more]
-        boxes = [*self.taken, *(reach(mark) for mark in marks if isinstance(mark, Text))]
+        boxes = [*self.taken, *(reach(mark) for mark in marks if is_lettering(mark))]
         return pieces_of(marks), boxes
+
+
+def is_lettering(mark: Mark) -> bool:
+    """Whether a mark is a text or the circle around a link's number, which no leader crosses."""
+    return isinstance(mark, Text) or style_class(mark) == "number"
 
 
 class NoteLine(NamedTuple):

@@ -79,6 +79,11 @@ class Drawn:
         pieces = self.notes(field).split("; ")
         return next(p for p in pieces if p.startswith(label.text.markup)).partition(" ")[2]
 
+    def called(self, field: str, label: Labelled) -> dict[str, str]:
+        """What a label says of each thing it names, of several points where they fall together."""
+        said, name = re.split(" [≡≈] ", self.meaning(field, label)), label.text.name
+        return dict(zip(name.split(" ") if len(said) > 1 else [name], said, strict=True))
+
     def vectors(self, field: str) -> list[LineMark]:
         """The vectors of a field, details left out."""
         return [mark for mark in self.marks[field] if is_vector(mark)]
@@ -91,12 +96,6 @@ class Labelled:
     text: Text
     leader: LineMark | None = None
     ring: CircleMark | Polyline | None = None
-
-    def names(self) -> list[str]:
-        """The names of what the label names: of several points where they fall together, also where
-        a number stands for them that the foot of the field explains."""
-        shared = re.search(r" [≡≈] |^\d+\)$", self.text.markup)
-        return self.text.name.split(" ") if shared else [self.text.name]
 
     def ink(self) -> BaseGeometry:
         """What the label takes up on the page."""
@@ -142,10 +141,11 @@ def attempt(
 
 
 def kinds_of(name: str, n: int | None = None) -> tuple[str, ...]:
-    """Which sheets a scene has, by its text: some ask for nothing of accelerations."""
+    """Which sheets a scene has, by its text: some ask for nothing that accelerations lead to."""
     text = "" if n is not None else OTHERS.get(name) or (FOLDER / f"{name}.toml").read_text("utf-8")
     asked = text.partition("[ask]")[2]
-    return KINDS if not asked or "acceleration = " in asked else KINDS[:1]
+    led_to = ("acceleration = ", "reactions = ", "balance = ")
+    return KINDS if not asked or any(each in asked for each in led_to) else KINDS[:1]
 
 
 def drawing_of(name: str, n: int | None, kind: str, language: str = "en") -> Drawing:

@@ -72,17 +72,17 @@ def unnamed(page: Drawn) -> list[str]:
     A note names several, separated by commas.
     """
     found = set()
-    notes = " ".join(m.markup for m in page.page.marks if isinstance(m, Text) and m.name == "note")
+    notes = [each for each in map(page.notes, ("mechanism", "plan")) if each]
     for field in ("mechanism", "plan"):
         for label in page.labels(field):
-            found |= {*label.names(), label.text.name}
+            found |= {*page.called(field, label), label.text.name}
     vectors = [mark for field in ("mechanism", "plan") for mark in page.vectors(field)]
     left = [
         mark.name
         for mark in vectors
         if mark.name not in found and not (length_of(mark) < TINY and notes)
     ]
-    noted = notes.count(",") + 1 if notes else 0
+    noted = sum(each.count(",") + 1 for each in notes)
     return left if len(left) > noted else []
 
 

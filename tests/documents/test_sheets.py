@@ -50,6 +50,7 @@ from tests.documents.sheet_tools import (
     is_vector,
     kind_of,
     kinds_of,
+    labels_of,
     length_of,
     named,
     off_fields,
@@ -113,8 +114,8 @@ def test_nothing_leaves_the_frame_or_its_field(page):
 
 def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
     """But for vectors that the foot lists, letters of triangles that no sentence says, a letter or
-    two of small ones that stand at one pin with many, and points of many trial plans, whose names
-    the foot says to be moved."""
+    two of small ones that stand at one pin with many, points of many trial plans, whose names the
+    foot says to be moved, small letters that the foot lists, and pins named in a detail."""
     faults, left_out = [], []
     told_of = " ".join(each.markup for each in sentences(page.drawing))
     for field in FIELDS:
@@ -125,22 +126,26 @@ def test_every_vector_point_and_pin_has_one_label_that_says_its_name(page):
         faults += [f"{field}: {name} is there {k} times" for name, k in counts.items() if k > 1]
         labels: dict[str, list[str]] = {}
         for label in page.labels(field):
-            said = re.split(" [≡≈] ", page.meaning(field, label))
-            for name, word in zip(label.names(), said, strict=True):
+            for name, word in page.called(field, label).items():
                 labels.setdefault(name, []).append(word)
         for mark in subjects:
             said, names = labels.get(mark.name, []), names_of(page, mark)
-            noted = any(name in page.notes(field) for name in names)
-            noted = noted and is_vector(mark) and not said
+            noted = not said and any(name in page.notes(field) for name in names)
+            noted |= kind_of(mark) == "pin" and not names.isdisjoint(in_details(page, field))
             if not said and mark.cls == "point construction":
                 sayings = (re.escape(name) + "(?![_′″‴])" for name in names)
                 left_out += [mark.name for each in sayings if re.search(each, told_of)]
-            elif not said and mark.cls == f"point {OWN_LINES}":
+            elif not (said or noted) and mark.cls == f"point {OWN_LINES}":
                 assert page.drawing.words("page.trials_moved") in page.notes(field)
             elif not noted and (len(said) != 1 or said[0] not in names):
                 faults.append(f"{field}: {told(mark)} is named {said}")
     assert not faults, "\n".join(faults)
     assert len(left_out) <= 2, left_out
+
+
+def in_details(page: Drawn, field: str) -> set[str]:
+    """What the details of a field say."""
+    return {each.text.markup for each in labels_of(page.marks[field]) if not each.text.name}
 
 
 def is_apart(mark):
@@ -217,7 +222,7 @@ def test_every_label_stands_by_what_it_names_or_leads_to_it(page):
         ]
         blocks = [taken_up(mark).envelope for mark in subjects if kind_of(mark) == "slider"]
         for label in page.labels(field):
-            own = [taken_up(mark) for mark in subjects if mark.name in label.names()]
+            own = [taken_up(mark) for mark in subjects if mark.name in page.called(field, label)]
             if not own:
                 continue
             near = shapely.union_all(own)
@@ -356,6 +361,7 @@ def test_every_vector_has_a_segment_whose_letters_are_drawn(page):
     drawn_letters = {
         symbol(name) for text in texts([page.page]) for name in text.name.split() if text.name
     }
+    drawn_letters |= {*LETTER.findall(page.notes("plan"))}
     for name, segment, length, _ in vectors(page.drawing):
         letters = LETTER.findall(segment)
         assert len(letters) == 2 and "".join(letters) == segment, name
@@ -538,7 +544,8 @@ def test_the_sense_of_each_link_that_the_table_has_is_on_the_mechanism(page):
     marks = [mark for mark in page.marks["mechanism"] if isinstance(mark, Text)]
     told_of = {text.markup for _, text in senses(page)}
     if page.drawing.kind == "velocity":
-        told_of |= {m.markup for m in marks if m.name.startswith("omega")}
+        by_driver = [each for each in page.labels("mechanism") if each.text.name.startswith("omega")]
+        told_of |= {page.meaning("mechanism", each) for each in by_driver}
     words = (each for m in marks if m.name == "senses" for each in m.markup.split("; "))
     told_of |= {each.partition(":")[0] for each in words}
     wanted = {name for name, rate in turning_links(page.drawing) if rate}
