@@ -268,6 +268,9 @@ O-B = 1
 cam = {{ tip = "roller", conjugate = {{}} }}
 {LINES.join(f"[[drivers]]{LINES}{kind} = 1" for kind in DRIVEN)}
 [[loads]]
+at = "A"
+link = 1
+force = {{}}
 [[springs]]
 [branches]
 [ask]
