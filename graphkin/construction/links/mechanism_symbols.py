@@ -415,7 +415,9 @@ def draw_unbroken(board: FieldContent, drawing: Drawing, field: Field, name: str
     here = drawing.positions[name]
     for link in drawing.scene.links.values():
         places = places_of(drawing, link.name)
-        if name not in link.points or len(places) < 3 or corners_of(drawing, link) is not None:
+        if name not in link.points or len(places) < 3 or is_all_wheel(drawing, link.name):
+            continue
+        if corners_of(drawing, link) is not None:
             continue
         first, last = farthest(places)
         reach = smaller(abs(here - first), abs(here - last)) * field.mm
