@@ -257,6 +257,10 @@ class Reach(Struct, frozen=True):
         return 1.0 if self.high - self.low > PARTS / 4 else (self.high - self.low) / PARTS
 
 
+CHANGE = 1e-6
+"""Distance beside a change point at which a mechanism closes, in parts of the window."""
+
+
 def window(driven: PageDriver) -> tuple[float, float]:
     """The window that is searched: one turn to each side, or as far as a cycle goes."""
     if driven.what == "turn":
@@ -271,33 +275,46 @@ def window(driven: PageDriver) -> tuple[float, float]:
 
 
 def reach_of(
-    driven: PageDriver, graph: Graph, closed: Sequence[int], near: Callable[[Any], dict[str, Any]]
+    driven: PageDriver,
+    graph: Graph,
+    closed: Sequence[int],
+    near: Callable[[Any], dict[str, Any]],
+    *,
+    whole: bool,
 ) -> Reach | None:
     """The range around the start where the outputs ``closed`` are finite; None for one position.
 
+    A ``whole`` motion goes round without an end.
+
     ``near`` gives the other inputs of the graph at positions of the driver. A gap narrower than
-    half a degree may be missed.
+    half a degree may be missed; a change point, where rounding decides, is none.
     """
     low, high = window(driven)
     at = np.linspace(low, high, 2 * GRID + 1)
 
     run = runner(graph, closed)
 
-    def closes(places: Any) -> Any:
-        found = run({INPUT: places, **near(places)})
+    def is_finite(places: Any) -> Any:
         good = np.ones(len(places), dtype=bool)
-        for values in found:
+        for values in run({INPUT: places, **near(places)}):
             good &= np.isfinite(values)
         return good
 
-    return around(driven, at, closes)
+    def closes(places: Any) -> Any:
+        good = is_finite(places)
+        if not good.all():
+            bad, beside = places[~good], CHANGE * (high - low)
+            good[~good] = is_finite(bad - beside) & is_finite(bad + beside)
+        return good
+
+    return around(driven, at, closes, whole=whole)
 
 
-def around(driven: PageDriver, at: Any, closes: Any) -> Reach | None:
+def around(driven: PageDriver, at: Any, closes: Any, *, whole: bool) -> Reach | None:
     """The range around the start, with its ends refined in rounds."""
     good = closes(at)
     here = int(np.abs(at - driven.start).argmin())
-    if driven.what == "turn" and good[here - GRID // 2 : here + GRID // 2 + 1].all():
+    if whole and driven.what == "turn" and good[here - GRID // 2 : here + GRID // 2 + 1].all():
         first = TURN * np.floor(driven.start / TURN)
         return Reach(float(first), float(first + TURN), True)
     ends = []

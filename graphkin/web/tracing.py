@@ -6,7 +6,7 @@ Groups of higher class close on the page by Newton's steps from the closings tra
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from functools import cached_property
 from itertools import pairwise
 from math import floor, pi
@@ -26,12 +26,13 @@ from graphkin.construction.tape.emitted import TapeOutputs
 from graphkin.construction.tape.graph import Graph
 from graphkin.construction.tape.traced import TracedNumber, traced_kind
 from graphkin.mechanism import Mechanism
+from graphkin.motion.course import Reals
 from graphkin.motion.driving import TURN
 from graphkin.motion.pieces import Path, Piece, reachable_ranges, through
 from graphkin.motion.sweep import Sweep, Turned, name_of, sweep_of
 from graphkin.numbers.arithmetic import np, pick
 from graphkin.numbers.common_roots import solved
-from graphkin.scene.model import Branch, Closure, Scene, quantities_within
+from graphkin.scene.model import Branch, Closure, Scene, Side, quantities_within
 from graphkin.web.frames import MOST_TURNS
 from graphkin.web.page_driver import INPUT, LEAST, PARTS, PageDriver, Reach, reach_of, window
 
@@ -51,6 +52,44 @@ def sides(scene: Scene, piece: Piece) -> dict[str, Branch]:
     """The closures of a piece, but for numbered ones: those are followed, whatever their number."""
     own = {name: each for name, each in piece.branches.items() if not isinstance(each, Closure)}
     return {**scene.branches, **own}
+
+
+def turned_over(scene: Scene, piece: Piece) -> Iterator[tuple[float, Set[str]]]:
+    """Where a piece begins, and each place in it where drawn points change their side, with these.
+
+    Bars that keep a link parallel are drawn by crossings, whose side changes where all is in line.
+    """
+    low, high = piece.low.at, piece.high.at
+    drawn = {n: s for n, s in scene.branches.items() if isinstance(s, Side)}
+    free = {name: side for name, side in drawn.items() if name not in piece.branches}
+    yield low, frozenset()
+
+    def signs(places: Reals) -> Reals:
+        points = {*free, *(each for side in free.values() for each in (side.first, side.second))}
+        trace = piece.course.run(places, [("position", point) for point in points])
+        at = {point: trace.value("position", point) for point in points}
+        turned = [
+            s.side * ((at[s.second] - at[s.first]).conjugate() * (at[name] - at[s.first])).imag
+            for name, s in free.items()
+        ]
+        on_each = [np.broadcast_to(each, places.shape) for each in turned]
+        return np.asarray(np.sign(np.stack(on_each, axis=1)))
+
+    if not free:
+        return
+    count = math.ceil((high - low) / (piece.course.sweep.usual / PARTS))
+    places = np.linspace(low, high, count + 1)[:-1] + (high - low) / (2 * count)
+    for n in np.flatnonzero((np.diff(signs(places), axis=0) != 0).any(axis=1)).tolist():
+        change = next(beside(signs, float(places[n]), float(places[n + 1]), 0.0))
+        after = signs(places[n + 1 : n + 2])[0]
+        yield change, frozenset(name for name, side in zip(free, after, strict=True) if side < 0)
+
+
+def on_other_side(steps: Sequence[Step], points: Set[str]) -> Iterator[Step]:
+    """The steps, with some points at the other one of the two crossings."""
+    for step in steps:
+        crossed = step.name in points and step.extra in ((1,), (-1,))
+        yield replace(step, extra=(-step.extra[0],)) if crossed else step
 
 
 class Tracing(Struct, frozen=True, dict=True):
@@ -101,23 +140,27 @@ class Tracing(Struct, frozen=True, dict=True):
         The number that selects the side of a step then depends on the driver's place. Where another
         closure is constructed by other steps, the page keeps the one that is drawn.
         """
-        pieces, scene = self.path.ranges[0], self.mechanism.scene
-        branches = [sides(scene, piece) for piece in pieces]
-        if all(each == branches[0] for each in branches):
+        scene = self.mechanism.scene
+        every = [(sides(scene, piece), piece) for piece in self.path.ranges[0]]
+        parts = [(own, *part) for own, piece in every for part in turned_over(scene, piece)]
+        if all((own, over) == (parts[0][0], parts[0][2]) for own, _, over in parts):
             return program
-        turns = range(-MOST_ROUND, MOST_ROUND + 1) if self.path.period else (0,)
-        shifted = [(turn * self.path.period, piece) for turn in turns for piece in pieces]
-        along = [Mechanism(replace(scene, branches=each)).program.steps for each in branches]
+        turns = range(-MOST_ROUND, MOST_ROUND + 1) if self.path.whole else (0,)
+        starts = [turn * self.path.period + low for turn in turns for _, low, _ in parts]
+        along = [
+            [*on_other_side(Mechanism(replace(scene, branches=own)).program.steps, over)]
+            for own, _, over in parts
+        ]
         if len({tuple(map(form, steps)) for steps in along}) > 1:
             return program
         steps = list(program.steps)
-        for n, every in enumerate(zip(*along, strict=True)):
-            extra = every[0].extra
-            if all(step.extra == extra for step in every):
+        for n, same in enumerate(zip(*along, strict=True)):
+            extra = same[0].extra
+            if all(step.extra == extra for step in same):
                 continue
-            for k, (shift, piece) in enumerate(shifted[1:], 1):
-                before = self.x < (piece.low.at + shift) / self.driven.metres
-                pairs = zip(extra, every[k % len(pieces)].extra, strict=True)
+            for k, start in enumerate(starts[1:], 1):
+                before = self.x < start / self.driven.metres
+                pairs = zip(extra, same[k % len(parts)].extra, strict=True)
                 extra = tuple(pick(before, *pair) for pair in pairs)
             steps[n] = replace(steps[n], extra=extra)
         return replace(program, steps=tuple(steps))
@@ -276,7 +319,8 @@ class Tracing(Struct, frozen=True, dict=True):
         if self.closings:
             return around(self.path, self.driven, self.sweep.start, self.closings)
         outputs = [self.tape.outputs[i] for i in closed]
-        reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
+        whole = self.path.whole
+        reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs, whole=whole)
         if reach is not None and self.sweep.whole and self.path.whole:
             first, turns = TURN * floor(self.driven.start / TURN), self.path.turns
             back = 1 <= turns <= MOST_TURNS

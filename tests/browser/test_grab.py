@@ -218,5 +218,5 @@ def test_labels_neither_leap_nor_lie_on_one_another_while_all_moves(
     found = counted(page, path, part)
     assert found["leaps"] <= 0.01 * LEAPT[name] * part
     assert found["overlapping"] <= 0.02 * found["positions"]
-    assert found["faded"] < 0.15 * found["shown"]  # a third of the pump, all of the ring are crowded
+    assert found["faded"] < 0.15 * found["shown"]  # the pump’s end and the ring are crowded
     assert page.evaluate(HUSHED) == "0"

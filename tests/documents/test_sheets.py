@@ -544,7 +544,8 @@ def test_the_sense_of_each_link_that_the_table_has_is_on_the_mechanism(page):
     marks = [mark for mark in page.marks["mechanism"] if isinstance(mark, Text)]
     told_of = {text.markup for _, text in senses(page)}
     if page.drawing.kind == "velocity":
-        by_driver = [each for each in page.labels("mechanism") if each.text.name.startswith("omega")]
+        labels = page.labels("mechanism")
+        by_driver = (each for each in labels if each.text.name.startswith("omega"))
         told_of |= {page.meaning("mechanism", each) for each in by_driver}
     words = (each for m in marks if m.name == "senses" for each in m.markup.split("; "))
     told_of |= {each.partition(":")[0] for each in words}

@@ -6,7 +6,7 @@ steps themselves.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from math import hypot, inf, radians, sqrt
 from typing import Any
 
@@ -24,8 +24,10 @@ from graphkin.drawing.marks import Arc, CircleMark, LineMark, Mark, Text
 from graphkin.drawing.style import BRIEF
 from graphkin.mechanism import Mechanism
 from graphkin.motion.course import Course
+from graphkin.motion.pieces import Path, reachable_ranges
 from graphkin.motion.sweep import names, sweep_of
 from graphkin.numbers.arithmetic import FLOAT
+from graphkin.scene.model import Closure
 from graphkin.web.field_binder import room_of
 from graphkin.web.page_driver import PageDriver
 from graphkin.web.screen_sheets import ScreenSheet
@@ -85,11 +87,16 @@ def redrawn_near(
     x: float,
     pins: Mapping[str, Sequence[float]],
 ) -> Fields:
-    """The same in the closure of a group of class III whose pins stand nearest to given ones."""
-    program, found = sheet.drawing.trace.program, []
+    """The same in the closure of a group of class III whose pins stand nearest to given ones.
+
+    So is the side of points of which a cycle tells none, for bars keep their links parallel.
+    """
+    program, found = taken_at(mechanism, driven, sheet, x), list[Fields]()
     closing = next((n for n, step in enumerate(program.steps) if is_closing(step)), None)
     if closing is None:
-        return redrawn(mechanism, driven, sheet, x, program)
+        ways = [program, *without_a_side(program, mechanism)]
+        found = [redrawn(mechanism, driven, sheet, x, way) for way in ways]
+        return min(found, key=lambda fields: farthest(fields[0], pins))
     for number in CLOSURES:
         try:
             here = in_closure(program, closing, number)
@@ -97,6 +104,42 @@ def redrawn_near(
         except StepFailed:
             continue
     return min(found, key=lambda fields: farthest(fields[0], pins), default=([], []))
+
+
+PATHS: dict[int, tuple[Mechanism, Path]] = {}
+"""The ways of mechanisms by their identities, with what holds these."""
+
+
+def path_of(mechanism: Mechanism) -> Path:
+    """The ranges of the driver of a mechanism, found once."""
+    key = id(mechanism)
+    if key not in PATHS:
+        PATHS[key] = mechanism, reachable_ranges(sweep_of(mechanism.scene))
+    return PATHS[key][1]
+
+
+def taken_at(mechanism: Mechanism, driven: PageDriver, sheet: ScreenSheet, x: float) -> Program:
+    """The steps with the sides that the motion takes beyond its change points, as a cycle says."""
+    drawn, scene, place = sheet.drawing.trace.program, mechanism.scene, x * driven.metres
+    path = path_of(mechanism)
+    turns = (-2, -1, 0, 1, 2) if path.whole else (0,)
+    taken = (p.branches for k in turns for p in path.ranges[0] if p.holds(place + k * path.period))
+    own = {name: each for name, each in next(taken, {}).items() if not isinstance(each, Closure)}
+    other = Mechanism(replace(scene, branches={**scene.branches, **own})).program
+    return other if len(other.steps) == len(drawn.steps) and own else drawn
+
+
+def without_a_side(program: Program, mechanism: Mechanism) -> Iterator[Program]:
+    """The steps with the points at their other crossing whose side no part of a cycle tells."""
+    told_of = {name for piece in path_of(mechanism).ranges[0] for name in piece.branches}
+    for name in {*mechanism.scene.branches} - told_of:
+        over = [
+            replace(step, extra=(-step.extra[0],))
+            if step.name == name and step.extra in ((1,), (-1,))
+            else step
+            for step in program.steps
+        ]
+        yield replace(program, steps=tuple(over))
 
 
 def is_closing(step: Step) -> bool:

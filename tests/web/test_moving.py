@@ -263,6 +263,24 @@ def test_marks_follow_as_python_draws_them(page, name):
         assert not list(compared(name, x, marks_of(name, here)))
 
 
+@pytest.mark.parametrize("name", ["stephenson-1", "mobility-parallel-cranks", "two-loops"])
+def test_a_page_goes_as_a_cycle_does_through_change_points(page, name):
+    """As far, and with every pin where a row of the cycle has it."""
+    sheets, found = page_of(name)
+    rows = cycle(named(name), steps=36)
+    low, high = rows.path.spans[0]
+    ends = (low / found.driven.metres, high / found.driven.metres)
+    assert (found.reach.low, found.reach.high) == pytest.approx(ends, abs=1e-6)
+    places = [at / found.driven.metres for at in rows.at]
+    for k, here in enumerate(ran(page, found, places)):
+        at = marks_of(name, here)
+        for mark_id, mark, s, _ in fields(sheets):
+            if s == 0 and mark_id in at and isinstance(mark, CircleMark) and mark.cls == "pin":
+                place = np.broadcast_to(rows.solution.points[mark.name].position, len(places))[k]
+                there = sheets[0].layout.mechanism(complex(place))
+                assert at[mark_id] == pytest.approx(there, abs=LIMIT), (mark.name, places[k])
+
+
 @pytest.mark.parametrize("name", WHICH)
 def test_a_page_stays_small(name):
     """What moves a page has less than 150 kB, and nothing in it ends a script."""
