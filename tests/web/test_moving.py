@@ -253,7 +253,8 @@ def differences(
 def off_on_paper(one: Sequence[float], other: Sequence[float]) -> float:
     """How far two lines lie apart, or their parts on the sheet where both leave it."""
     parts = [cut_to([*each], (0, 0, WIDTH, HEIGHT)) for each in (one, other)]
-    return min(apart(one, other), apart(*parts) if all(parts) else inf)
+    on_paper = apart(*parts) if all(parts) else inf if any(parts) else 0.0
+    return min(apart(one, other), on_paper)
 
 
 @pytest.mark.parametrize("name", WHICH)

@@ -64,8 +64,9 @@ def flat(value: Any) -> list[float]:
     return list(chain.from_iterable(value)) if isinstance(value[0], list) else list(value)
 
 
-def apart(found: Any, meant: Any) -> float:
-    """How far a value of the page is from that of a trace, in parts of what is drawn there."""
+def apart(found: Any, meant: Any, least: float = 0.0) -> float:
+    """How far a value of the page is from that of a trace, in parts of what is drawn there, or of
+    a ``least`` size, for what falls on the pole."""
     numbers = flat(found)
     if isinstance(meant, Ratio):
         meant = meant.start + meant.shift / meant.size
@@ -82,7 +83,7 @@ def apart(found: Any, meant: Any) -> float:
     else:
         meant = [meant.tail.real, meant.tail.imag, meant.tip.real, meant.tip.imag]
     assert len(meant) == len(numbers)
-    size = max(map(abs, meant)) or 1.0
+    size = max(least, *map(abs, meant)) or 1.0
     return max(abs(a - b) for a, b in zip(numbers, meant, strict=True)) / size
 
 
@@ -140,8 +141,10 @@ def test_the_page_computes_what_the_trace_holds(page, name):
     sheets, _, turn = turn_of(name)
     found = page.evaluate(RESULTS, [[*map(part, MODULES)], record(sheets, turn)])
     assert turn.moves
+    points = (abs(value) for value in turn.values.values() if isinstance(value, complex))
+    least = max(points) / 1000
     for step in turn.moves:
-        near = [apart(value, turn.values[step]) for value in found[str(step)]]
+        near = [apart(value, turn.values[step], least) for value in found[str(step)]]
         assert near and min(near) < NEAR, turn.moves[step]
 
 
