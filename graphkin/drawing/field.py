@@ -231,9 +231,9 @@ class SheetPaper(Struct, frozen=True, dict=True):
 
     @cached_property
     def marked(self) -> tuple[float, float]:
-        """Text left of this x, or above this y, is clear of the centring mark at the lower edge."""
+        """Text left of this x, or above this y, is clear of the lower or the right centring mark."""
         if self.is_leaf:
-            return self.left[2], self.area[3]
+            return self.area[2] - 6, self.area[3]
         return self.width / 2 - 3, self.area[3] - 11
 
     @cached_property
