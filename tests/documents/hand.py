@@ -117,10 +117,8 @@ class Hand:
                 given[match[1]] = complex(number(match[2]), number(match[3])) * unit
         for item in self.items:
             if match := re.fullmatch(r"(.*): in the axes of link (\w+)", item):
-                self.own[match[2]] = {
-                    name.replace(f",{match[2]}}}", "}"): given.pop(name)
-                    for name in match[1].split(", ")
-                }
+                told = (each.split(" ≡ ") for each in match[1].split(", "))
+                self.own[match[2]] = {names[-1]: given.pop(names[0]) for names in told}
         self.frame = {canonical(name): where for name, where in given.items()}
         anchor = next((name for name in self.frame if name in self.place), None)
         if anchor:

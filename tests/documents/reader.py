@@ -343,9 +343,10 @@ class Reader(Trials):
         drawn = [line for line in self.loci[-1:] if isinstance(line, Line)]
         track = drawn[0] if drawn else self.track(k)  # that of a link that moves was drawn just now
         track = self.positive(track, rolls) if "(positive" in rolls else track
-        laid = Line.of(
-            track.point, cmath.rect(1, self.angle(re.search(rf"at ({NUMBER}°)", rolls)[1]))
-        )
+        on = re.search(rf"horizontal|(vertical)|at ({NUMBER}°) to", rolls)
+        assert on
+        way = self.angle(on[2]) if on[2] else math.pi / 2 if on[1] else 0.0
+        laid = Line.of(track.point, cmath.rect(1, way))
         away = laid.along * (1j if side[1] == "left" else -1j)
         radius = number(size[1]) * MILLIMETRES[size[2]] / self.scale
         self.ray = Line(track.point + away * radius, track.along)

@@ -60,7 +60,7 @@ def factored(words: str) -> tuple[float, str]:
 
 def agrees(size: float, told: str | None) -> None:
     """Raises DefectError where a length is not as long as the page tells besides."""
-    if told and abs(size - number(told)) > 0.1:
+    if told and abs(size - number(told)) > max(0.1, size / 1000):
         raise DefectError(f"{told} mm is told of what is {size:.2f} mm long")
 
 

@@ -795,7 +795,8 @@ def plates(drawing: Drawing) -> Iterator[Datum]:
 def on_link(scene: Scene, words: Words, link: Link) -> Iterator[Datum]:
     """The points of a moving link with coordinates in its axes; a single one is its origin.
 
-    A point with coordinates in the axes of several links has the index of the link.
+    A point with coordinates in the axes of several links has the index of the link, which the
+    remark explains.
     """
     places = coordinates_on(link)
     if len(places) < 2:
@@ -806,8 +807,13 @@ def on_link(scene: Scene, words: Words, link: Link) -> Iterator[Datum]:
     ]
     for name, placing in zip(names, places, strict=True):
         yield Datum(name=name, value=placed(scene, words, placing), sign=" ")
+    own = [symbol(p.point) for p in places]
+    told = [
+        name if name == point else f"{name} ≡ {point}"
+        for name, point in zip(names, own, strict=True)
+    ]
     axes = words("page.on_link", k=escape(link.name))
-    yield Datum(f"{words('list_mark').join(names)}{words('colon')}{axes}")
+    yield Datum(f"{words('list_mark').join(told)}{words('colon')}{axes}")
 
 
 def coordinates_on(link: Link) -> list[At]:
