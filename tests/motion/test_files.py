@@ -281,6 +281,42 @@ def test_pictures_are_in_the_unit_of_results(results, unit, metres):
     assert next(m.markup for m in marks if isinstance(m, Text) and m.name == "unit") == "in"
 
 
+@pytest.mark.parametrize("kind", ["cycle", "extremes", "positions"])
+def test_tables_are_in_si_units_unless_those_of_the_scene_are_asked_for(run, tmp_path, kind):
+    """An inch is 0.0254 m; angles keep their units."""
+    read = {}
+    for units in ("SI", "scene"):
+        more = ("--format", "csv", "--steps", 8, "--positions", 4)
+        more += ("--units", "scene") if units == "scene" else ()
+        result = run("cycle", IN_INCHES, "-o", tmp_path / units, *more)
+        assert result.exit_code == 0, result.stderr
+        (path,) = (tmp_path / units).glob(f"*-{kind}.csv")
+        read[units] = list(csv.reader(io.StringIO(path.read_text())))
+    (heads, *own), (others, *si) = read["scene"], read["SI"]
+    sizes = {"in": 0.0254, "in/s": 0.0254, "in/s^2": 0.0254, "lbf": 4.4482216152605,
+             "lbf·in": 4.4482216152605 * 0.0254}  # fmt: skip
+    if kind == "extremes":
+        unit, value = heads.index("unit"), heads.index("value")
+        assert {row[unit] for row in own} & {*sizes} and not {row[unit] for row in si} & {*sizes}
+        pairs = [
+            (row[value], sizes.get(row[unit], 1), other[value])
+            for row, other in zip(own, si, strict=True)
+        ]
+    else:
+        assert "x_B [in]" in heads and "vx_B [in/s]" in heads and "ax_B [in/s^2]" in heads
+        assert "x_B [m]" in others and "vx_B [m/s]" in others and "ax_B [m/s^2]" in others
+        units = [head.partition("[")[2][:-1] for head in heads]
+        pairs = [
+            (cell, sizes.get(unit, 1), other)
+            for row, line in zip(own, si, strict=True)
+            for cell, unit, other in zip(row, units, line, strict=True)
+        ]
+    for cell, size, other in pairs:
+        assert bool(cell) == bool(other)
+        if cell:
+            assert float(cell) * size == pytest.approx(float(other), rel=1e-12, abs=1e-300)
+
+
 FORCED = str(IN_INCHES.parents[1] / "forces" / "four-bar.toml")
 
 
