@@ -159,7 +159,7 @@ def frame_of(
     """
     _, top, right, low = axes.rect
     words = motion.found.shown.alone.words
-    yield from axis_lines(axes, name, f"*{name}*, {escape(words.spelled(unit)).replace('²', '^2')}")
+    yield from axis_lines(axes, name, f"*{name}*, {escape(words.unit(unit)).replace('²', '^2')}")
     at = right + ARROW + 1, axes.zero + 0.9
     sign = "−" if axes.wide < 0 else ""
     yield Text(*at, f"{sign}*{u_symbol(motion)}*", "caption", LETTERS, name="axis u")
@@ -563,7 +563,7 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
         words("diagrams.polygon", s=s),
         words.clauses(
             (
-                f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}",
+                f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.unit(f'{unit}/mm')}",
                 f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
             )
         ),
@@ -943,7 +943,7 @@ def small_diagram(
     axes = fitted(rect, at, each.fine, most, NUMBERED)
     zero = axes.zero
     words = found.shown.alone.words
-    unit = words.spelled(each.unit.replace("²", "^2").replace("³", "^3"))
+    unit = words.unit(each.unit).replace("²", "^2").replace("³", "^3")
     yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
     yield from numbers_along(words, axes, each.name, 1.0, 4)
     names = position_names(found, at)
