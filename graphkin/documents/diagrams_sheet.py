@@ -366,12 +366,18 @@ def construction(words: Words, before: Axes, found: Derived, look: str) -> Itera
     yield CircleMark(*pole, 1.1, f"pole {look}", f"P_{name}")
     letter = f"*P*_{{*{name}*}}"
     yield Text(pole[0] - 2, pole[1] + 0.9, letter, f"label {look}", LETTERS, "end", f"P_{name}")
-    caption = f"*H* = {found.distance:g} {words.unit('mm')}"
-    if found.distance > extent(caption, LETTERS)[0] + 3:
-        at = (pole[0] + foot) / 2, axes.zero + 3.2
-        yield from cleared(
-            Text(*at, caption, "caption", LETTERS, "middle", f"pole distance {name}")
-        )
+    yield from pole_caption(words, pole, found.distance, f"pole distance {name}")
+
+
+def pole_caption(words: Words, pole: XY, distance: float, name: str) -> Iterator[Mark]:
+    """The distance of a pole below its line; below its sign too where the line is short."""
+    caption = f"*H* = {distance:g} {words.unit('mm')}"
+    foot, zero = pole[0] + distance, pole[1]
+    if distance > extent(caption, LETTERS)[0] + 3:
+        at, anchor = (pole[0] + distance / 2, zero + 3.2), "middle"
+    else:
+        at, anchor = (foot - 1.5, zero + 5.2), "end"
+    yield from cleared(Text(*at, caption, "caption", LETTERS, anchor, name))
 
 
 # --- the sheet of differentiation -----------------------------------------------------------------
@@ -538,10 +544,7 @@ def levels(words: Words, first: Axes, found: Derived) -> Iterator[Mark]:
     yield LineMark(*pole, foot, first.zero, "centre-line", "pole distance")
     yield CircleMark(*pole, 1.1, "pole velocity", "P")
     yield Text(pole[0] - 2, pole[1] + 0.9, "*P*", "label velocity", LETTERS, "end", "P")
-    caption = f"*H* = {found.distance:g} {words.unit('mm')}"
-    if found.distance > extent(caption, LETTERS)[0] + 3:
-        at = (pole[0] + foot) / 2, first.zero + 3.2
-        yield from cleared(Text(*at, caption, "caption", LETTERS, "middle", "pole distance"))
+    yield from pole_caption(words, pole, found.distance, "pole distance")
 
 
 def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:
