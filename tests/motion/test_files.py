@@ -16,7 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from graphkin.cli.report.cycle_report import FOUR_BARS, cycle_lines, cycle_table
+from graphkin.cli.report.cycle_report import (
+    FOUR_BARS,
+    cycle_lines,
+    cycle_rows,
+    cycle_table,
+    extremes_rows,
+)
 from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.construction.links.link_shapes import hull
 from graphkin.drawing.marks import Polyline, Text
@@ -31,6 +37,7 @@ from graphkin.motion.curves.over_driver import (
 )
 from graphkin.motion.curves.plane_paths import box_of, dotted, figures, near_box, picture_files
 from graphkin.motion.cycle import cycle
+from graphkin.motion.extremes import all_extremes
 from graphkin.scene.read_scene import read_text
 from graphkin.text import LANGUAGES, words
 from tests.chosen import EVERY
@@ -315,6 +322,18 @@ def test_tables_are_in_si_units_unless_those_of_the_scene_are_asked_for(run, tmp
         assert bool(cell) == bool(other)
         if cell:
             assert float(cell) * size == pytest.approx(float(other), rel=1e-12, abs=1e-300)
+
+
+def test_places_of_a_sliding_driver_are_in_the_units_of_the_table():
+    """A block that drives a crank: both tables have its coordinate in centimetres, or in metres."""
+    found = cycle(load(f"{SCENES}/centrodes-cardan.toml"), steps=12)
+    reached = all_extremes(found)
+    for length, size in (("m", 1), ("cm", 0.01)):
+        rows = extremes_rows(found, reached, length)
+        at = next(i for i, head in enumerate(rows[0]) if head == f"s [{length}]")
+        assert cycle_rows(found, length)[0][0] == f"s [{length}]"
+        si = extremes_rows(found, reached)
+        assert [row[at] * size for row in rows[1:]] == pytest.approx([row[at] for row in si[1:]])
 
 
 FORCED = str(IN_INCHES.parents[1] / "forces" / "four-bar.toml")

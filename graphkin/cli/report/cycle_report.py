@@ -521,13 +521,14 @@ def extremes_rows(
 ) -> list[Sequence[Cell]]:
     """The extremes of all ranges under their heads, a row for each place.
 
-    Values are in SI units or with another unit of length; places of the driver stay in SI units.
+    Units are those of ``cycle_rows``.
 
     ``inf`` is a value that grows without bound towards the dead point of its row. ``to`` ends a
     stretch on which the value stays the same. ``limit`` is the customary limit of an angle.
     """
     sweep = cycle.sweep
-    at = f"{sweep.symbol} [{sweep.unit}]"
+    of_place, one = in_length(sweep.unit, length)
+    at = f"{sweep.symbol} [{of_place}]"
     rows: list[Sequence[Cell]] = [
         ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where", "limit"]
     ]
@@ -543,7 +544,7 @@ def extremes_rows(
             ]
             for name, extreme in (("least", found.least), ("largest", found.largest)):
                 for place in extreme.places:
-                    where = [u + 0.0 for u in (place.at, place.until)]
+                    where = [u / one + 0.0 for u in (place.at, place.until)]
                     end = ENDS[place.end]
                     rows.append([*head, name, extreme.value / size + 0.0, *where, end, found.limit])
     return rows
