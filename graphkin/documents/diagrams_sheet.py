@@ -373,11 +373,10 @@ def pole_caption(words: Words, pole: XY, distance: float, name: str) -> Iterator
     """The distance of a pole below its line; below its sign too where the line is short."""
     caption = f"*H* = {distance:g} {words.unit('mm')}"
     foot, zero = pole[0] + distance, pole[1]
+    text = Text(foot - 1.5, zero + 5.2, caption, "caption", LETTERS, "end", name)
     if distance > extent(caption, LETTERS)[0] + 3:
-        at, anchor = (pole[0] + distance / 2, zero + 3.2), "middle"
-    else:
-        at, anchor = (foot - 1.5, zero + 5.2), "end"
-    yield from cleared(Text(*at, caption, "caption", LETTERS, anchor, name))
+        text = Text(foot - distance / 2, zero + 3.2, caption, "caption", LETTERS, "middle", name)
+    yield from cleared(text)
 
 
 # --- the sheet of differentiation -----------------------------------------------------------------
