@@ -159,6 +159,13 @@ def sheet(
     help="Also report the extremes of every follower's speed over the driver's: 1 over its"
     " mechanical advantage without friction.",
 )
+@click.option(
+    "--units",
+    type=click.Choice(["SI", "scene"]),
+    default="SI",
+    show_default=True,
+    help="Units of lengths, speeds, accelerations and forces in the tables: SI, or the scene's.",
+)
 @language_option
 @formats_option(
     "csv,xlsx,parquet,svg,png,gif,html",
@@ -179,6 +186,7 @@ def cycle(
     positions: int | None,
     begin: Start,
     advantage: bool,
+    units: str,
     lang: str | None,
     formats: str,
     force: bool,
@@ -188,8 +196,9 @@ def cycle(
     Prints the driver's range, the dead points and change points by name, how far the followers go,
     the least and largest values of all that the scene asks for and of the transmission and pressure
     angles, and what the lengths of a single loop mean. Writes tables of the motion and of the
-    extremes (CSV, SI units), curves of all motions, paths of points and centrodes. Also draws the
-    path of the driven pin with the region that the other links can reach.
+    extremes (CSV, SI units unless --units says otherwise), curves of all motions, paths of points
+    and centrodes. Also draws the path of the driven pin with the region that the other links can
+    reach. Curves are in the units of results, so that a scene in inches has them in in/s.
 
     Several drivers, and laws of time, are moved by the time: for one turn of the first driver, for
     one cycle to and fro if its law never makes a turn, or from --from to --to seconds.
@@ -201,6 +210,7 @@ def cycle(
       graphkin cycle pump --set n=7 -o cycles --format gif,html
       graphkin cycle offset-slider-crank -o cycles --positions 12 --positions-from dead --format csv
       graphkin cycle offset-slider-crank -o cycles --advantage --format csv
+      graphkin cycle mine.toml -o cycles --units scene
     """
     known = ("csv", "xlsx", "parquet", "svg", "png", "gif", "html")
     kinds = option_words("--format", formats, known)
@@ -232,9 +242,10 @@ def cycle(
         lines = [*cycle_lines(found, reached)]
     tell(lines)
     tell(positions_lines(few) if few is not None else ())
-    tables = {"cycle": cycle_rows(found)}
-    tables |= {"extremes": extremes_rows(found, reached)} if any(reached) else {}
-    tables |= {"positions": cycle_rows(few)} if few is not None else {}
+    length = mechanism.scene.units["length"] if units == "scene" else "m"
+    tables = {"cycle": cycle_rows(found, length)}
+    tables |= {"extremes": extremes_rows(found, reached, length)} if any(reached) else {}
+    tables |= {"positions": cycle_rows(few, length)} if few is not None else {}
     files = {f"{stem}-{kind}.csv": csv_text(rows, "\n").encode() for kind, rows in tables.items()}
     files |= table_files(stem, tables, kinds)
     with working() as step:

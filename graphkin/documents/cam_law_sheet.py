@@ -260,7 +260,7 @@ def diagram(law: CamLaw, axes: Axes, strip: Strip, *, last: bool) -> Iterator[Ma
     for border in law.borders[1:]:
         x, _ = axes.on_page(axes.place(float(border), 0.0))
         yield LineMark(x, top - 2, x, low + 2, "register", f"border {name}")
-    said = f"{strip.symbol}, {words.spelled(strip.unit)}" if strip.unit != "1" else strip.symbol
+    said = f"{strip.symbol}, {words.unit(strip.unit)}" if strip.unit != "1" else strip.symbol
     yield from axis_lines(axes, name, said)
     yield Text(right + ARROW + 1, axes.zero + 0.9, f"*{way_letter(law)}*", "caption", LETTERS)
     yield from numbers_along(words, axes, name, strip.factor, 4)
@@ -353,7 +353,7 @@ def number_of(law: CamLaw, strip: Strip, value: float) -> str:
     """A value of a diagram with its unit."""
     words = law.found.shown.alone.words
     text = words.significant(value * strip.factor, 4)
-    unit = words.spelled(strip.unit)
+    unit = words.unit(strip.unit)
     return text if unit == "1" else text + ("" if unit == "°" else " ") + unit
 
 
@@ -412,9 +412,9 @@ def in_time(law: CamLaw, every: Sequence[Strip]) -> Iterator[str]:
         _, most = law.largest(partial(size_of_order, law, order))
         power = "" if order == 1 else f"^{order}"
         size = drawing.words.significant(most * abs(pace) ** order, 4)
-        shown.append(f"{size} {drawing.words.spelled(unit)}/{drawing.words.spelled('s')}{power}")
+        shown.append(f"{size} {drawing.words.unit(unit)}/{drawing.words.spelled('s')}{power}")
     letter = "*v*" if law.cam.slides else "*ω*"
-    own_unit = drawing.words.spelled("m/s" if law.cam.slides else "rad/s")
+    own_unit = drawing.words.unit("m/s" if law.cam.slides else "rad/s")
     own = f"{drawing.words.significant(abs(pace), 4)} {own_unit}"
     rates = [
         f"{each.symbol}·{letter}{'' if order == 1 else f'^{order}'}"

@@ -159,7 +159,7 @@ def frame_of(
     """
     _, top, right, low = axes.rect
     words = motion.found.shown.alone.words
-    yield from axis_lines(axes, name, f"*{name}*, {escape(words.spelled(unit)).replace('²', '^2')}")
+    yield from axis_lines(axes, name, f"*{name}*, {escape(words.unit(unit)).replace('²', '^2')}")
     at = right + ARROW + 1, axes.zero + 0.9
     sign = "−" if axes.wide < 0 else ""
     yield Text(*at, f"{sign}*{u_symbol(motion)}*", "caption", LETTERS, name="axis u")
@@ -366,12 +366,17 @@ def construction(words: Words, before: Axes, found: Derived, look: str) -> Itera
     yield CircleMark(*pole, 1.1, f"pole {look}", f"P_{name}")
     letter = f"*P*_{{*{name}*}}"
     yield Text(pole[0] - 2, pole[1] + 0.9, letter, f"label {look}", LETTERS, "end", f"P_{name}")
-    caption = f"*H* = {found.distance:g} {words.unit('mm')}"
-    if found.distance > extent(caption, LETTERS)[0] + 3:
-        at = (pole[0] + foot) / 2, axes.zero + 3.2
-        yield from cleared(
-            Text(*at, caption, "caption", LETTERS, "middle", f"pole distance {name}")
-        )
+    yield from pole_caption(words, pole, found.distance, f"pole distance {name}")
+
+
+def pole_caption(words: Words, pole: XY, distance: float, name: str) -> Iterator[Mark]:
+    """The distance of a pole below its line; below its sign too where the line is short."""
+    caption = f"*H* = {distance:g} {words.unit('mm')}"
+    foot, zero = pole[0] + distance, pole[1]
+    text = Text(foot - 1.5, zero + 5.2, caption, "caption", LETTERS, "end", name)
+    if distance > extent(caption, LETTERS)[0] + 3:
+        text = Text(foot - distance / 2, zero + 3.2, caption, "caption", LETTERS, "middle", name)
+    yield from cleared(text)
 
 
 # --- the sheet of differentiation -----------------------------------------------------------------
@@ -538,10 +543,7 @@ def levels(words: Words, first: Axes, found: Derived) -> Iterator[Mark]:
     yield LineMark(*pole, foot, first.zero, "centre-line", "pole distance")
     yield CircleMark(*pole, 1.1, "pole velocity", "P")
     yield Text(pole[0] - 2, pole[1] + 0.9, "*P*", "label velocity", LETTERS, "end", "P")
-    caption = f"*H* = {found.distance:g} {words.unit('mm')}"
-    if found.distance > extent(caption, LETTERS)[0] + 3:
-        at = (pole[0] + foot) / 2, first.zero + 3.2
-        yield from cleared(Text(*at, caption, "caption", LETTERS, "middle", "pole distance"))
+    yield from pole_caption(words, pole, found.distance, "pole distance")
 
 
 def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Reals) -> list[str]:
@@ -563,7 +565,7 @@ def strings_said(motion: FollowerMotion, first: Axes, found: Derived, where: Rea
         words("diagrams.polygon", s=s),
         words.clauses(
             (
-                f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.spelled(f'{unit}/mm')}",
+                f"{rule} = {figure(drawing, 1 / found.axes.high)} {words.unit(f'{unit}/mm')}",
                 f"*k*_{{*{v}*}} = {figure(drawing, 1 / first.high)} {per_mm}.",
             )
         ),
@@ -943,7 +945,7 @@ def small_diagram(
     axes = fitted(rect, at, each.fine, most, NUMBERED)
     zero = axes.zero
     words = found.shown.alone.words
-    unit = words.spelled(each.unit.replace("²", "^2").replace("³", "^3"))
+    unit = words.unit(each.unit).replace("²", "^2").replace("³", "^3")
     yield from axis_lines(axes, each.name, f"{each.symbol}, {unit}")
     yield from numbers_along(words, axes, each.name, 1.0, 4)
     names = position_names(found, at)

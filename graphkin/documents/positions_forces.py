@@ -174,13 +174,13 @@ def value_rows(every: Sequence[ForcedPosition]) -> Iterator[ValueRow]:
     assert given is not None
     for table in constructions(first.trace.program, ByTable):
         loads = [each.drawing.by_table[table.name] for each in every]
-        yield ValueRow(f"{symbol(table.name)} ({first.words.spelled(table.unit)})", loads)
+        yield ValueRow(f"{symbol(table.name)} ({first.words.unit(table.unit)})", loads)
     asked = [t for t in first.trace.program.targets if is_asked(first.scene, given, t)]
     for target in sorted(asked, key=lambda each: FORCES.index(BY_TARGET[each[0]])):
         quantity, name = BY_TARGET[target[0]], first.symbol(target[1])
         values = [each.drawing.trace.value(*target) for each in every]
         sizes = [sized(*each) for each in zip(every, values, strict=True)]
-        yield ValueRow(f"{name} ({first.words.spelled(quantity.unit)})", sizes)
+        yield ValueRow(f"{name} ({first.words.unit(quantity.unit)})", sizes)
         if quantity is not BALANCING_MOMENT:
             ways = [
                 round(degrees(phase(value)), 6) % TURN if value is not None and size else None

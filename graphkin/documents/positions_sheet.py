@@ -77,6 +77,7 @@ from graphkin.drawing.symbol_markup import escape, symbol
 from graphkin.drawing.symbols import PIN, across, distance, head, toward
 from graphkin.motion.follower_limits import Follower
 from graphkin.scene.model import FRAME
+from graphkin.scene.quantity import LENGTHS
 from graphkin.text import Words
 from graphkin.text.errors import PageError
 
@@ -210,8 +211,9 @@ def at_scale(found: PositionSet) -> Position:
     whole = box_of(found)
     left, top, right, low = field_on(found)
     wide, high = right - left - 2 * AROUND, low - top - 2 * OVER
-    least = 1000 * max(whole.width / wide, whole.height / high)
-    drawn = (scaled(found.shown.alone, kL) for kL in preferred_scales(least))
+    metre = float(LENGTHS[found.cycle.scene.base])
+    least = 1000 * max(whole.width / wide, whole.height / high) * metre
+    drawn = (scaled(found.shown.alone, ratio) for ratio in preferred_scales(least))
     drawing = next(each for each in drawn if has_room_for_stroke(found, each))
     stated = found.cycle.scene.sheet.scale
     own = float(stated.number(found.cycle.scene.values)) if stated is not None else 0.0
@@ -220,9 +222,10 @@ def at_scale(found: PositionSet) -> Position:
     return replace(found.shown, alone=drawing)
 
 
-def scaled(drawing: Drawing, kL: float) -> Drawing:
-    """A mechanism at a scale."""
-    return replace(drawing, scales=Scales(kL, 1.0))
+def scaled(drawing: Drawing, ratio: float) -> Drawing:
+    """A mechanism at a scale: the real length over the drawn one."""
+    metre = float(LENGTHS[drawing.scene.base])
+    return replace(drawing, scales=Scales(ratio / metre, 1.0, metre=metre))
 
 
 def has_room_for_stroke(found: PositionSet, drawing: Drawing) -> bool:

@@ -97,10 +97,10 @@ def hand_out(
     """
     from graphkin.documents.calculation import calculation
 
-    if view in MOTION_VIEWS:  # in metres, whatever the unit of results
+    if view in MOTION_VIEWS:
         from graphkin.documents.motion_sheets import motion_sheets
 
-        mechanism = mechanism.spoken(language)
+        mechanism = mechanism.spoken(language).measured
         spoken = language_of(mechanism, language)
         return [SheetDocument(*part) for part in motion_sheets(mechanism, view, spoken)]
     mechanism = mechanism.spoken(language).measured

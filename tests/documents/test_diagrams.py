@@ -136,6 +136,19 @@ def test_a_smooth_curve_runs_through_its_points():
 # --- on paper -------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("name", ["cam-roller", "cam-knife", "offset-slider-crank"])
+def test_every_pole_has_its_distance(name: str):
+    """A short line has its distance below it, as a long one has."""
+    for part in ("differentiation", "integration"):
+        for page in sheets(name).get(part, ()):
+            poles = [m for m in page.marks if isinstance(m, LineMark) and "pole dist" in m.name]
+            said = {m.name: m.markup for m in page.marks if isinstance(m, Text)}
+            assert poles
+            for line in poles:
+                length = abs(line.x2 - line.x1)
+                assert said[line.name] == f"*H* = {length:g} mm"
+
+
 def test_every_ray_is_parallel_to_its_chord():
     page, _ = sheets("crank-rocker")["differentiation"]
     for letter, count in (("ω", 12), ("ε", 12)):

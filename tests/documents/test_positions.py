@@ -14,7 +14,7 @@ import pytest
 from msgspec.structs import replace
 
 from graphkin.documents.positions_plans import usual
-from graphkin.documents.sheet_documents import hand_out
+from graphkin.documents.sheet_documents import SheetDocument, hand_out
 from graphkin.drawing.marks import CircleMark, LineMark, Mark, Page, Text, style_class
 from graphkin.drawing.richtext import plain
 from graphkin.drawing.scale import Extent
@@ -306,15 +306,56 @@ def test_bars_keep_their_length_in_all_positions():
         assert lengths == pytest.approx([lengths[0]] * 11, rel=1e-9)
 
 
-@pytest.mark.parametrize("view", ["positions", "diagrams"])
-def test_a_whole_motion_is_drawn_in_metres_whatever_the_unit_of_results(view):
-    """A scene in inches has results in inches; these sheets are those with results in metres."""
+def in_results(view: str, results: str) -> list[SheetDocument]:
+    """A whole motion of the shaper in inches, with results in a unit."""
     text = (FOLDER / "shaper.toml").read_text(encoding="utf-8")
-    one, other = (
-        hand_out(Mechanism(read_text(text.replace('length = "mm"', length), "own")), view)
-        for length in ('length = "in"', 'length = "in", results = "SI"')
-    )
-    assert [part.pages for part in one] == [part.pages for part in other]
+    units = f'length = "in", results = "{results}"'
+    return hand_out(Mechanism(read_text(text.replace('length = "mm"', units), "own")), view)
+
+
+def test_positions_are_drawn_alike_in_every_unit_of_results():
+    """Lines lie at the same places of the paper; an inch is 0.0254 m in every value of a table."""
+    values: dict[str, list[list[str]]] = {"in": [], "SI": []}
+    lines: dict[str, list[tuple[float, ...]]] = {"in": [], "SI": []}
+    for results, found in values.items():
+        for document in in_results("positions", results):
+            for page in document.pages:
+                found.append([m.markup for m in page.marks if isinstance(m, Text)])
+                lines[results] += [
+                    (m.x1, m.y1, m.x2, m.y2) for m in page.marks if isinstance(m, LineMark)
+                ]
+    assert np.array(lines["in"]) == pytest.approx(np.array(lines["SI"]), abs=1e-4)
+    heads = {text for page in values["in"] for text in page}
+    assert any(text.endswith("(in/s)") for text in heads)
+    assert any(text.endswith(("(in/s^2)", "(in/s²)")) for text in heads)
+    assert not any(re.search(r"\(m/s|\bm/mm", text) for text in heads)
+    checked = 0
+    for one, other in zip(values["in"], values["SI"], strict=True):
+        for i, (mine, theirs) in enumerate(zip(one, other, strict=False)):
+            if not mine.endswith("(in/s)") or not theirs.endswith("(m/s)"):
+                continue
+            for own, si in zip(one[i + 1 : i + 8], other[i + 1 : i + 8], strict=True):
+                mine_si, theirs_si = (float(text.replace("−", "-")) for text in (own, si))
+                rounded, there = (0.51 / 10.0 ** len(t.partition(".")[2]) for t in (own, si))
+                off = rounded * 0.0254 + there
+                assert mine_si * 0.0254 == pytest.approx(theirs_si, abs=off)
+                checked += 1
+    assert checked >= 7
+
+
+def test_diagrams_are_in_the_unit_of_results():
+    """Every axis and scale factor is in inches, none in metres."""
+    every = [
+        m.markup
+        for document in in_results("diagrams", "in")
+        for page in document.pages
+        for m in page.marks
+        if isinstance(m, Text)
+    ]
+    text = "\n".join(every)
+    for unit in ("*v*, in/s", "*a*, in/s^2", " (in/s)/mm", " (in/s^2)/mm", ", in/s^3", " in/mm"):
+        assert unit in text, unit
+    assert not re.search(r"(?<![\w/])m/s|(?<![\w/])m/mm|, m$", text, re.M)
 
 
 def test_the_table_of_the_most_positions_stays_above_the_foot_and_is_legible():

@@ -227,6 +227,9 @@ def test_no_sentence_is_left_in_english(language):
         "page.guide_of",
         "page.axis_guide",
         "positions.number",
+        "curves.point",
+        "curves.positions",
+        "curves.forces",
         "studio.angle",
         "sheet.positions_view",
         "calculation.structure",
@@ -319,6 +322,7 @@ def test_every_sentence_is_used():
     waiting -= {f"animation.{kind}" for kind in ("dead", "change")}
     waiting -= {f"legend.{each.target}" for each in CENTRES}
     waiting -= {f"sheet.{STROKE.kind}"} | {f"studio.page_{page}" for page in MOVING}
+    waiting -= {key for key in waiting if key.startswith("curves.")}  # tests/motion draws them
     assert waiting >= RARELY_SAID
     waiting -= RARELY_SAID
     for name in dict.fromkeys((*TELLING, "plates-ring", *RARE, *OTHERS, *CHOSEN)):

@@ -16,16 +16,30 @@ from hypothesis import given
 from hypothesis import strategies as st
 from msgspec.structs import replace
 
-from graphkin.cli.report.cycle_report import cycle_lines, cycle_table
+from graphkin.cli.report.cycle_report import (
+    FOUR_BARS,
+    cycle_lines,
+    cycle_rows,
+    cycle_table,
+    extremes_rows,
+)
 from graphkin.construction.higher_class.following import FollowedClosure
 from graphkin.construction.links.link_shapes import hull
 from graphkin.drawing.marks import Polyline, Text
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.curves.charts import cut, numeral, ticks_of
-from graphkin.motion.curves.over_driver import pictures, sampled, span_of
+from graphkin.motion.curves.over_driver import (
+    indexed,
+    moving_points,
+    pictures,
+    sampled,
+    span_of,
+)
 from graphkin.motion.curves.plane_paths import box_of, dotted, figures, near_box, picture_files
 from graphkin.motion.cycle import cycle
+from graphkin.motion.extremes import all_extremes
 from graphkin.scene.read_scene import read_text
+from graphkin.text import LANGUAGES, words
 from tests.chosen import EVERY
 from tests.chosen import SCENES as SHIPPED
 from tests.motion.linkages import five_bar, four_bar, slider_crank
@@ -83,7 +97,7 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
     least = next(row for row in told if (row["of"], row["extreme"]) == ("D", "least"))
     assert (least["quantity"], least["value"], least["where"]) == ("velocity", "0.0", "inside")
     assert float(least["phi [deg]"]) == pytest.approx(27.809, abs=1e-3)  # as the block turns round
-    for words in (
+    for line in (
         "φ from -32.618° to 186.944°",
         "C-D square to the guide of 5 at φ = 186.944°: limit position of the driver",
         "block 5 goes 52.9547 cm",
@@ -91,7 +105,7 @@ def test_the_command_writes_everything_and_tells_what_it_found(run: Run, tmp_pat
         "triple rocker",
         "agrees in every row",
     ):
-        assert words in result.stdout
+        assert line in result.stdout
     more = ("-o", tmp_path, "--format", "svg", "--steps", 4)
     again = run("cycle", "pump", "--set", "n=7", *more)
     assert again.exit_code == 2
@@ -139,8 +153,8 @@ def test_a_mechanism_that_never_closes_is_a_message(run: Run, tmp_path: Path):
 )
 def test_the_words_of_a_cycle(mechanism, said):
     text = "\n".join(cycle_lines(cycle(mechanism)))
-    for words in said:
-        assert words in text
+    for line in said:
+        assert line in text
     assert "DOES NOT AGREE" not in text
 
 
@@ -160,24 +174,24 @@ def test_a_follower_between_dead_points_swings():
 
 
 def test_words_along_a_line_stay_clear_of_the_curves():
-    found = sampled(cycle(load("pump", n=7), steps=24))
+    found = sampled(cycle(load("pump", n=7), steps=24), language="en")
     marks = pictures(found)["velocities"]().marks
     curves = [m for m in marks if isinstance(m, Polyline) and m.cls.startswith("curve")]
     assert len(curves) >= 3
     told = [m for m in marks if isinstance(m, Text) and m.name == "upright"]
-    assert [m.markup for m in told] == ["dead point", "dead point", "scene's position"]
+    assert [m.markup for m in told] == ["dead point", "dead point", "scene’s position"]
     for text in told[:2]:  # no place beside the scene's position is as long as its words
         area = shapely.box(*shapely.MultiPoint(text.corners()).bounds)
         assert not any(shapely.LineString(curve.points).intersects(area) for curve in curves)
 
 
-@pytest.mark.parametrize(("name", "unit", "most"), [("roller", "mm", 20), ("rocker", "deg", 24)])
+@pytest.mark.parametrize(("name", "unit", "most"), [("roller", "mm", 20), ("rocker", "°", 24)])
 def test_a_picture_of_a_cam_shows_the_rise_of_its_law_in_its_unit(name, unit, most):
     """The rise of a slide in the unit of the scene, that of a lever in degrees."""
     found = sampled(cycle(load(f"{SCENES}/cam-{name}.toml"), steps=24))
     marks = pictures(found)["cams"]().marks
     units = [m.markup for m in marks if isinstance(m, Text) and m.name == "unit"]
-    assert units == [unit, "deg"]
+    assert units == [unit, "°"]
     rise = read_off(marks, "*s*_{2}" if name == "roller" else "*ψ*_{2}")
     assert (rise.imag.min(), rise.imag.max()) == pytest.approx((0, most), abs=0.02)
     if name == "roller":  # base 40, roller 10, offset 10: tan α = (s' - e)/(s + √(50² - e²))
@@ -201,7 +215,7 @@ def read_off(marks, label):
     below = [m for m in ticks if m.anchor == "middle"]
 
     def scale(texts, places):
-        values = [float(m.markup.replace("−", "-")) for m in texts]
+        values = [float(m.markup.replace("−", "-").replace(",", ".")) for m in texts]
         return np.polynomial.Polynomial.fit(places, values, 1)
 
     across = scale(below, [m.x for m in below])
@@ -251,6 +265,127 @@ def test_a_figure_has_the_title_of_its_language(own, asked, title):
     pictures = picture_files(found, "x", ("svg",), asked).values()
     titles = [re.search(r"<title>(.*?)</title>", each.decode())[1] for each in pictures]
     assert titles and all(re.search(rf": {title}(,|$)", each) for each in titles)
+
+
+IN_INCHES = Path(__file__).resolve().parents[1] / "scenes" / "motion" / "press.toml"
+
+
+@pytest.mark.parametrize(
+    ("results", "unit", "metres"), [("", "in/s", 0.0254), ("ft", "ft/s", 0.3048), ("SI", "m/s", 1)]
+)
+def test_pictures_are_in_the_unit_of_results(results, unit, metres):
+    """An inch is 0.0254 m, a foot 0.3048 m; places stay in the scene's own unit."""
+    mechanism = load(str(IN_INCHES))
+    scene = replace(mechanism.scene, results=results)
+    found = sampled(cycle(Mechanism(scene), steps=24), language="en")
+    name, *_ = moving_points(scene, found.solution)
+    marks = pictures(found)["velocities"]().marks
+    assert next(m.markup for m in marks if isinstance(m, Text) and m.name == "unit") == unit
+    drawn = read_off(marks, f"*v*_{{{name}}}")
+    size = np.abs(found.solution.points[name].velocity) / metres
+    assert drawn.imag == pytest.approx(np.interp(drawn.real, found.at, size), abs=5e-3 * size.max())
+    marks = pictures(found)["positions"]().marks
+    assert next(m.markup for m in marks if isinstance(m, Text) and m.name == "unit") == "in"
+
+
+@pytest.mark.parametrize("kind", ["cycle", "extremes", "positions"])
+def test_tables_are_in_si_units_unless_those_of_the_scene_are_asked_for(run, tmp_path, kind):
+    """An inch is 0.0254 m; angles keep their units."""
+    read = {}
+    for units in ("SI", "scene"):
+        more = ("--format", "csv", "--steps", 8, "--positions", 4)
+        more += ("--units", "scene") if units == "scene" else ()
+        result = run("cycle", IN_INCHES, "-o", tmp_path / units, *more)
+        assert result.exit_code == 0, result.stderr
+        (path,) = (tmp_path / units).glob(f"*-{kind}.csv")
+        read[units] = list(csv.reader(io.StringIO(path.read_text())))
+    (heads, *own), (others, *si) = read["scene"], read["SI"]
+    sizes = {"in": 0.0254, "in/s": 0.0254, "in/s^2": 0.0254, "lbf": 4.4482216152605,
+             "lbf·in": 4.4482216152605 * 0.0254}  # fmt: skip
+    if kind == "extremes":
+        unit, value = heads.index("unit"), heads.index("value")
+        assert {row[unit] for row in own} & {*sizes} and not {row[unit] for row in si} & {*sizes}
+        pairs = [
+            (row[value], sizes.get(row[unit], 1), other[value])
+            for row, other in zip(own, si, strict=True)
+        ]
+    else:
+        assert "x_B [in]" in heads and "vx_B [in/s]" in heads and "ax_B [in/s^2]" in heads
+        assert "x_B [m]" in others and "vx_B [m/s]" in others and "ax_B [m/s^2]" in others
+        units = [head.partition("[")[2][:-1] for head in heads]
+        pairs = [
+            (cell, sizes.get(unit, 1), other)
+            for row, line in zip(own, si, strict=True)
+            for cell, unit, other in zip(row, units, line, strict=True)
+        ]
+    for cell, size, other in pairs:
+        assert bool(cell) == bool(other)
+        if cell:
+            assert float(cell) * size == pytest.approx(float(other), rel=1e-12, abs=1e-300)
+
+
+def test_places_of_a_sliding_driver_are_in_the_units_of_the_table():
+    """A block that drives a crank: both tables have its coordinate in centimetres, or in metres."""
+    found = cycle(load(f"{SCENES}/centrodes-cardan.toml"), steps=12)
+    reached = all_extremes(found)
+    for length, size in (("m", 1), ("cm", 0.01)):
+        rows = extremes_rows(found, reached, length)
+        at = next(i for i, head in enumerate(rows[0]) if head == f"s [{length}]")
+        assert cycle_rows(found, length)[0][0] == f"s [{length}]"
+        si = extremes_rows(found, reached)
+        assert [row[at] * size for row in rows[1:]] == pytest.approx([row[at] for row in si[1:]])
+
+
+FORCED = str(IN_INCHES.parents[1] / "forces" / "four-bar.toml")
+
+
+def test_forces_of_a_cycle_are_in_pounds_force_where_results_are_in_inches():
+    """A pound-force is 4.4482216 N."""
+    scene = replace(load(FORCED).scene, results="in")
+    found = sampled(cycle(Mechanism(scene), steps=12), fine=24)
+    marks = pictures(found)["forces"]().marks
+    units = [m.markup for m in marks if isinstance(m, Text) and m.name == "unit"]
+    assert units == ["lbf", "lbf·in"]
+    (what, name), value = next(iter(found.cycle.forces.values.items()))
+    drawn = read_off(marks, indexed(*name.split("_", 1)))
+    size = np.abs(value) / 4.4482216
+    expected = np.interp(drawn.real, found.at, size)
+    assert drawn.imag == pytest.approx(expected, abs=5e-3 * size.max()), what
+
+
+SPOKEN = (
+    *(f"{SCENES}/{name}.toml" for name in ("cam-roller", "crank-rocker", "slider-crank-slider")),
+    FORCED,
+)
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_words_of_pictures_are_those_of_the_language(language):
+    """No word of English is left in another language; numbers have the language's mark."""
+    own, english = (
+        {key: said for key, said in words(code).sentences.items() if key.startswith("curves.")}
+        for code in (language, "en")
+    )
+    assert own.keys() == english.keys()
+    said = []
+    for name in SPOKEN:
+        found = sampled(cycle(load(name), steps=24), 24, language)
+        for _, drawn in figures(found):
+            said += [m.markup for m in drawn().marks if isinstance(m, Text)]
+    text = "\n".join(said)
+    for key in ("velocities", "turning", "dead", "here", "fixed", "rolls", "ring"):
+        assert own[f"curves.{key}"].partition(" {")[0] in text, key
+    if language != "en":
+        left = re.findall(r"\b(?:of|the|link|driver|deg|path|centrode|reach|point of)\b", text)
+        assert not left
+    if words(language)("decimal_mark") == ",":
+        assert not [each for each in said if re.fullmatch(r"−?\d+\.\d+", each)]
+
+
+def test_every_class_of_loop_has_its_name_in_the_pictures():
+    known = {key for key in words("en").sentences if key.startswith("curves.loop.")}
+    kinds = {f"curves.loop.{kind.replace(' ', '-')}" for kind in FOUR_BARS}
+    assert known == kinds | {"curves.loop.slider-crank"}
 
 
 @given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6))

@@ -43,15 +43,29 @@ def cycle_table(cycle: Cycle) -> str:
     return csv_text(cycle_rows(cycle), "\n")
 
 
-def cycle_rows(cycle: Cycle) -> list[Sequence[Cell]]:
-    """The head of the whole table, and its rows.
+def cycle_rows(cycle: Cycle, length: str = "m") -> list[Sequence[Cell]]:
+    """The head of the whole table, and its rows, in SI units or with another unit of length.
 
     A cell is None where there is no value, where an instantaneous centre is at infinity, and where
     no digit of the value is sure.
     """
-    columns = list(columns_of(cycle))
+    columns = [with_length(head, values, length) for head, values in columns_of(cycle)]
     rows = ([cell(values[row]) for _, values in columns] for row in range(len(cycle.at)))
     return [[head for head, _ in columns], *rows]
+
+
+def with_length(head: str, values: Any, length: str) -> Column:
+    """A column in SI units with another unit of length, such as v_A [in/s] for v_A [m/s]."""
+    name, bracket, unit = head.removesuffix("]").partition(" [")
+    own, size = in_length(unit, length)
+    return (head, values) if own == unit else (f"{name}{bracket}{own}]", values / size)
+
+
+def in_length(unit: str, length: str) -> tuple[str, float]:
+    """A unit of SI with another unit of length, and its size, as tables write them."""
+    plain = unit.replace("^2", "²").replace("^3", "³")
+    own = words("en", length=length).unit(plain)
+    return (unit, 1.0) if own == plain else (own.translate(PLAIN_UNITS), float(size_in_si(own)[0]))
 
 
 def cell(value: Any) -> float | None:
@@ -503,32 +517,36 @@ def positions_lines(few: Cycle) -> list[str]:
 
 
 def extremes_rows(
-    cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]]
+    cycle: Cycle, found_extremes: Sequence[Sequence[Extremes]], length: str = "m"
 ) -> list[Sequence[Cell]]:
-    """The extremes of all ranges under their heads, a row for each place, in SI units.
+    """The extremes of all ranges under their heads, a row for each place.
+
+    Units are those of ``cycle_rows``.
 
     ``inf`` is a value that grows without bound towards the dead point of its row. ``to`` ends a
     stretch on which the value stays the same. ``limit`` is the customary limit of an angle.
     """
     sweep = cycle.sweep
-    at = f"{sweep.symbol} [{sweep.unit}]"
+    of_place, one = in_length(sweep.unit, length)
+    at = f"{sweep.symbol} [{of_place}]"
     rows: list[Sequence[Cell]] = [
         ["range", "quantity", "of", "unit", "extreme", "value", at, f"{at} to", "where", "limit"]
     ]
     for number, every in enumerate(found_extremes, 1):
         for found in every:
             measure = found.measure
+            unit, size = in_length(measure.unit.translate(PLAIN_UNITS), length)
             head: list[Cell] = [
                 number,
                 measure.name,
                 measure.of,
-                measure.unit.translate(PLAIN_UNITS),
+                unit,
             ]
             for name, extreme in (("least", found.least), ("largest", found.largest)):
                 for place in extreme.places:
-                    where = [u + 0.0 for u in (place.at, place.until)]
+                    where = [u / one + 0.0 for u in (place.at, place.until)]
                     end = ENDS[place.end]
-                    rows.append([*head, name, extreme.value + 0.0, *where, end, found.limit])
+                    rows.append([*head, name, extreme.value / size + 0.0, *where, end, found.limit])
     return rows
 
 

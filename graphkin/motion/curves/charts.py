@@ -74,7 +74,7 @@ class ChartPanel(Struct, frozen=True, eq=False):
 
 
 class AcrossAxis(Struct, frozen=True, eq=False):
-    """The axis below panels: places of the rows, limits, what it shows, and its numbers."""
+    """The axis below panels: places of the rows, limits, what it shows, numbers, decimal mark."""
 
     at: Reals
     low: float
@@ -82,6 +82,7 @@ class AcrossAxis(Struct, frozen=True, eq=False):
     words: str
     ticks: Sequence[float] = ()
     uprights: Sequence[Upright] = ()
+    mark: str = "."
 
 
 def ticks_of(low: float, high: float, most: int = TICKS) -> list[float]:
@@ -91,9 +92,9 @@ def ticks_of(low: float, high: float, most: int = TICKS) -> list[float]:
     return [k * step for k in range(first, last + 1)]
 
 
-def numeral(value: float) -> str:
-    """A number along an axis, with a true minus sign."""
-    return f"{value + 0.0:.6g}".replace("-", "−")
+def numeral(value: float, mark: str = ".") -> str:
+    """A number along an axis, with a true minus sign and a decimal mark."""
+    return f"{value + 0.0:.6g}".replace("-", "−").replace(".", mark)
 
 
 def limits_of(curves: Sequence[ChartCurve]) -> tuple[float, float]:
@@ -191,7 +192,7 @@ def axis_below(axis: AcrossAxis, rect: Rect) -> Iterator[Mark]:
     left, _, right, low = rect
     for value in axis.ticks or ticks_of(axis.low, axis.high, 12):
         x = left + (value - axis.low) / (axis.high - axis.low) * (right - left)
-        yield Text(x, low + 4, numeral(value), "caption", WORDS, "middle", name="tick")
+        yield Text(x, low + 4, numeral(value, axis.mark), "caption", WORDS, "middle", name="tick")
     yield Text((left + right) / 2, low + 9.5, escape(axis.words), "caption", WORDS, "middle")
 
 
@@ -214,7 +215,9 @@ def panel_marks(panel: ChartPanel, axis: AcrossAxis, rect: Rect, number: int) ->
         y = y_of(value)
         yield LineMark(left, y, right, y, "scale-line" if value == 0 else "grid")
         yield LineMark(left - 1, y, left, y, "scale-line")
-        yield Text(left - 1.8, y + 0.8, numeral(value), "caption", WORDS, "end", name="tick")
+        yield Text(
+            left - 1.8, y + 0.8, numeral(value, axis.mark), "caption", WORDS, "end", name="tick"
+        )
     yield LineMark(left, top, left, low, "scale-line")
     yield LineMark(left, low, right, low, "scale-line")
     unit = (top + low) / 2 + extent(panel.unit, WORDS)[0] / 2
@@ -286,6 +289,7 @@ class PlaneChart(Struct, frozen=True, dict=True):
     unit: str
     shown: Box
     curves: Sequence[ChartCurve]
+    mark: str = "."
 
     @cached_property
     def mm(self) -> float:
@@ -330,12 +334,14 @@ def plane_page(
     for value in ticks_of(x0, x1, most):
         x = plane(complex(value, y0))[0]
         marks.append(LineMark(x, top, x, low, "grid"))
-        marks.append(Text(x, low + 4, numeral(value), "caption", WORDS, "middle", name="tick"))
+        marks.append(
+            Text(x, low + 4, numeral(value, plane.mark), "caption", WORDS, "middle", name="tick")
+        )
     most = max(2, round(12 * (y1 - y0) / max(x1 - x0, y1 - y0)))
     for value in ticks_of(y0, y1, most):
         y = plane(complex(x0, value))[1]
         marks.append(LineMark(left, y, right, y, "grid"))
-        text = numeral(value)
+        text = numeral(value, plane.mark)
         marks.append(Text(left - 1.8, y + 0.8, text, "caption", WORDS, "end", name="tick"))
     marks += [LineMark(left, top, left, low, "scale-line")]
     marks += [LineMark(left, low, right, low, "scale-line")]

@@ -32,7 +32,8 @@ from graphkin.motion.cycle import Cycle
 from graphkin.motion.driving import TURN
 from graphkin.scene.link_points import lettered
 from graphkin.scene.model import Scene
-from graphkin.scene.quantity import SI
+from graphkin.scene.quantity import SI, size_in_si
+from graphkin.text import ENGLISH, Words, words
 
 if TYPE_CHECKING:
     from graphkin.motion.cycle import ForcesAlong
@@ -48,8 +49,8 @@ END = 3e-4
 class Sampled(Struct, frozen=True, eq=False):
     """The motion at closely spaced u, rising within each range.
 
-    ``breaks`` are the row numbers at which a new range begins. ``language`` is that of the scene's
-    title, empty for the scene's own.
+    ``breaks`` are the row numbers at which a new range begins. ``language`` is that of all words,
+    empty for the scene's own.
     """
 
     cycle: Cycle
@@ -85,8 +86,24 @@ class Sampled(Struct, frozen=True, eq=False):
             for name in self.scene.parameters
             if name in values
         ]
-        title = self.scene.title_in(self.language or self.scene.sheet.language)
-        return ", ".join([title, *settings])
+        return ", ".join([self.scene.title_in(self.words.language), *settings])
+
+    @property
+    def words(self) -> Words:
+        """The words of the pictures, with the scene's signs and its unit of results."""
+        sheet = self.scene.sheet
+        language = self.language or sheet.language
+        return words(language, sheet.signs, self.scene.unit_of_results)
+
+    def in_results(self, unit: str) -> tuple[str, float]:
+        """The unit in which results are shown, for a unit of SI, and the factor to it."""
+        own = words(ENGLISH, length=self.scene.unit_of_results).unit(unit)
+        return self.words.unit(unit), 1.0 if own == unit else 1 / float(size_in_si(own)[0])
+
+    @property
+    def in_lengths(self) -> tuple[str, float]:
+        """The scene's unit of length as written, and the factor to it from metres."""
+        return self.words.spelled(self.length_unit), self.per_length
 
     @property
     def length_unit(self) -> str:
@@ -178,11 +195,20 @@ def indexed(letter: str, name: str) -> str:
     return f"*{letter}*_{{{escape(lettered(name))}}}"
 
 
-def some_of(names: Sequence[str], most: int, noun: str) -> tuple[list[str], str]:
-    """The first names that fit into a figure, and words for the rest."""
+def some_of(found: Sampled, title: str, names: Sequence[str], most: int) -> tuple[list[str], str]:
+    """The first names that fit into a figure, and its title, which says how many there are."""
+    said = found.words(f"curves.{title}")
     if len(names) <= most:
-        return list(names), ""
-    return list(names[:most]), f" ({most} of {len(names)} {noun}; the table holds all)"
+        return list(names), said
+    return list(names[:most]), found.words("curves.some", title=said, most=most, all=len(names))
+
+
+def components(found: Sampled, sign: str, value: np.ndarray, first: int) -> list[ChartCurve]:
+    """The components of a vector along both axes, the first in a hue."""
+    return [
+        ChartCurve(found.words("curves.along", sign=sign, axis=axis), part, hue, hue + 1)
+        for hue, (axis, part) in enumerate(zip("xy", (value.real, value.imag), strict=True), first)
+    ]
 
 
 def pictures(found: Sampled) -> dict[str, Callable[[], Page]]:
@@ -207,37 +233,33 @@ def pictures(found: Sampled) -> dict[str, Callable[[], Page]]:
 
 def of_points(found: Sampled, points: Sequence[str], quantity: str) -> Page:
     """A panel for each point with its components and its magnitude."""
-    letter, unit, factor = MOTION[quantity].letter, MOTION[quantity].unit, 1.0
-    if quantity == "position":
-        unit, factor = found.length_unit, found.per_length
+    letter = MOTION[quantity].letter
+    place = quantity == "position"
+    unit, factor = found.in_lengths if place else found.in_results(MOTION[quantity].unit)
     known = [n for n in points if getattr(found.solution.points[n], quantity) is not None]
-    shown, more = some_of(known, MOST_PANELS, "points")
+    shown, title = some_of(found, PLURALS[quantity], known, MOST_PANELS)
     panels = []
     for name in shown:
         value = np.asarray(getattr(found.solution.points[name], quantity)) * factor
-        along = value.real, value.imag
-        if quantity == "position":
+        if place:
             curves = [
                 ChartCurve(indexed(axis, name), part, hue)
-                for hue, (axis, part) in enumerate(zip("xy", along, strict=True))
+                for hue, (axis, part) in enumerate(zip("xy", (value.real, value.imag), strict=True))
             ]
         else:
             sign = indexed(letter, name)
-            curves = [
-                ChartCurve(sign, np.abs(value), INK),
-                *(
-                    ChartCurve(f"{sign} along *{axis}*", part, hue, hue + 1)
-                    for hue, (axis, part) in enumerate(zip("xy", along, strict=True))
-                ),
-            ]
-        panels.append(ChartPanel(f"Point {name.replace('@', ' of link ')}", unit, curves))
-    return figure(found, PLURALS[quantity].capitalize() + more, panels)
+            curves = [ChartCurve(sign, np.abs(value), INK), *components(found, sign, value, 0)]
+        point, _, link = name.partition("@")
+        key = "curves.point_of_link" if link else "curves.point"
+        panels.append(ChartPanel(found.words(key, p=point, k=link), unit, curves))
+    return figure(found, title, panels)
 
 
 def of_links(found: Sampled, links: Sequence[str]) -> Page:
     """Three panels: angles, angular velocities, angular accelerations of links."""
     panels = []
-    links, more = some_of(links, MOST_CURVES, "links")
+    said, signs = found.words, found.words.signs
+    links, title = some_of(found, "turning", links, MOST_CURVES)
     angles = [
         ChartCurve(indexed("θ", name), angle, i)
         for i, name in enumerate(links)
@@ -245,10 +267,10 @@ def of_links(found: Sampled, links: Sequence[str]) -> Page:
     ]
     if angles:
         lines = ", ".join(f"{n}: {'-'.join(line_of(found, n))}" for n in links if line_of(found, n))
-        which = f" ({lines})" if len(lines) < LINE else ", from its first point to its second"
-        panels.append(ChartPanel(f"Angle of the line of each link{which}", "deg", angles))
-    turning = "Angular velocity, counter-clockwise positive", "Angular acceleration"
-    for rate, letter, words in zip(RATES, "ωε", turning, strict=True):
+        heading = "curves.angle_of_lines" if len(lines) < LINE else "curves.angle"
+        panels.append(ChartPanel(said(heading, list=lines), said("unit.deg"), angles))
+    letters = ("omega", "ω"), ("epsilon", signs.angular_acceleration)
+    for rate, (heading, letter) in zip(RATES, letters, strict=True):
         curves: list[ChartCurve] = []
         for i, name in enumerate(links):
             value = motion_value(found.solution.links[name], rate)
@@ -256,8 +278,8 @@ def of_links(found: Sampled, links: Sequence[str]) -> Page:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape)
                 curves.append(ChartCurve(indexed(letter, name), whole, i))
         if curves:
-            panels.append(ChartPanel(words, rate.unit, curves))
-    return figure(found, f"Turning of the links{more}", panels)
+            panels.append(ChartPanel(said(f"curves.{heading}"), said.unit(rate.unit), curves))
+    return figure(found, title, panels)
 
 
 def line_of(found: Sampled, link: str) -> tuple[str, ...]:
@@ -280,13 +302,12 @@ def angle_of(found: Sampled, link: str) -> np.ndarray | None:
 
 def of_slides(found: Sampled, blocks: Sequence[str]) -> Page:
     """Three panels: coordinate, speed, acceleration of every block along its guide."""
-    unit = found.length_unit
     panels = []
-    blocks, more = some_of(blocks, MOST_CURVES, "blocks")
-    for quantity, letter, words, units, factor in (
-        ("position", "s", "Coordinate along the guide", unit, found.per_length),
-        ("speed", "v", "Speed along the guide", "m/s", 1.0),
-        ("acceleration", "a", "Acceleration along the guide", "m/s²", 1.0),
+    blocks, title = some_of(found, "slides", blocks, MOST_CURVES)
+    for quantity, letter, (unit, factor) in (
+        ("position", "s", found.in_lengths),
+        ("speed", "v", found.in_results("m/s")),
+        ("acceleration", "a", found.in_results("m/s²")),
     ):
         curves: list[ChartCurve] = []
         for i, name in enumerate(blocks):
@@ -295,50 +316,52 @@ def of_slides(found: Sampled, blocks: Sequence[str]) -> Page:
                 whole = np.broadcast_to(np.asarray(value, float), found.at.shape) * factor
                 curves.append(ChartCurve(indexed(letter, name), whole, i))
         if curves:
-            panels.append(ChartPanel(words, units, curves))
-    return figure(found, f"Blocks on their guides{more}", panels)
+            panels.append(ChartPanel(found.words(f"curves.slide_{quantity}"), unit, curves))
+    return figure(found, title, panels)
 
 
 def of_cams(found: Sampled) -> Page:
     """Two panels for each cam that the driver turns: displacement and pressure angle."""
     panels = []
-    profiles, more = some_of(list(found.cycle.profiles), MOST_PANELS // 2, "cams")
+    said, degrees = found.words, found.words("unit.deg")
+    profiles, title = some_of(found, "cams", list(found.cycle.profiles), MOST_PANELS // 2)
     for name in profiles:
         profile = found.cycle.profiles[name]
         swings = profile.cam.lever is not None
-        lift = np.degrees(profile.rise.at) if swings else profile.rise.at * found.per_length
-        letter, unit = ("ψ", "deg") if swings else ("s", found.length_unit)
-        words = f"Displacement of link {name} by cam {profile.cam.on}"
-        panels.append(ChartPanel(words, unit, [ChartCurve(indexed(letter, name), lift)]))
+        unit, factor = (degrees, np.degrees(1.0)) if swings else found.in_lengths
+        rise = ChartCurve(indexed("ψ" if swings else "s", name), profile.rise.at * factor)
+        heading = said("curves.cam_rise", k=name, g=profile.cam.on)
+        panels.append(ChartPanel(heading, unit, [rise]))
         angle = ChartCurve(indexed("α", name), profile.pressure, 1)
-        panels.append(ChartPanel(f"Pressure angle of link {name}", "deg", [angle]))
-    return figure(found, f"Cams{more}", panels)
+        panels.append(ChartPanel(said("curves.cam_pressure", k=name), degrees, [angle]))
+    return figure(found, title, panels)
 
 
 def of_forces(found: Sampled, forces: ForcesAlong) -> Page:
     """The magnitudes of reactions, and a panel for each driver's moment or force."""
     every = forces.values.items()
     reactions = {name: value for (what, name), value in every if what == PAIR_REACTION.target}
-    shown, more = some_of(list(reactions), MOST_CURVES, "reactions")
+    said = found.words
+    shown, title = some_of(found, "forces", list(reactions), MOST_CURVES)
+    unit, factor = found.in_results(PAIR_REACTION.unit)
     curves = [
-        ChartCurve(indexed(*name.split("_", 1)), np.abs(reactions[name]), i)
+        ChartCurve(indexed(*name.split("_", 1)), np.abs(reactions[name]) * factor, i)
         for i, name in enumerate(shown)
     ]
-    words = "Reactions, their magnitudes"
-    panels = [ChartPanel(words, PAIR_REACTION.unit, curves)] if curves else []
+    panels = [ChartPanel(said("curves.reactions"), unit, curves)] if curves else []
     for (what, name), value in every:
         quantity, sign = BY_TARGET[what], indexed(*name.split("_", 1))
+        if quantity not in (BALANCING_MOMENT, BALANCING_FORCE):
+            continue
+        unit, factor = found.in_results(quantity.unit)
+        size = value * factor
         if quantity is BALANCING_MOMENT:
-            words = "Balancing moment, counter-clockwise positive"
-            panels.append(ChartPanel(words, quantity.unit, [ChartCurve(sign, value, INK)]))
-        elif quantity is BALANCING_FORCE:
-            along = [
-                ChartCurve(sign, np.abs(value), INK),
-                ChartCurve(f"{sign} along *x*", value.real, 0, 1),
-                ChartCurve(f"{sign} along *y*", value.imag, 1, 2),
-            ]
-            panels.append(ChartPanel("Balancing force", quantity.unit, along))
-    return figure(found, f"Forces{more}", panels)
+            heading, along = "curves.balancing_moment", [ChartCurve(sign, size, INK)]
+        else:
+            heading = "curves.balancing_force"
+            along = [ChartCurve(sign, np.abs(size), INK), *components(found, sign, size, 0)]
+        panels.append(ChartPanel(said(heading), unit, along))
+    return figure(found, title, panels)
 
 
 def figure(found: Sampled, title: str, panels: Sequence[ChartPanel]) -> Page:
@@ -351,7 +374,12 @@ def figure(found: Sampled, title: str, panels: Sequence[ChartPanel]) -> Page:
         )
         for panel in panels
     ]
-    return stacked(f"{title}: {found.title}", whole, driver_axis(found))
+    return stacked(titled(found, title), whole, driver_axis(found))
+
+
+def titled(found: Sampled, title: str) -> str:
+    """The title of a figure, with that of the scene."""
+    return found.words("curves.figure", title=title, scene=found.title)
 
 
 def axis_factor(found: Sampled) -> float:
@@ -361,7 +389,7 @@ def axis_factor(found: Sampled) -> float:
 
 def driver_axis(found: Sampled) -> AcrossAxis:
     """The axis of the driver, with numbers at whole parts of a turn where it turns."""
-    sweep = found.cycle.sweep
+    sweep, said = found.cycle.sweep, found.words
     low, high = float(found.at.min()), float(found.at.max())
     ticks: list[float] = []
     if sweep.what == "turn":
@@ -372,24 +400,24 @@ def driver_axis(found: Sampled) -> AcrossAxis:
             first, last = np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9)
             ticks = (np.arange(first, last + 1) * step).tolist()
         name = found.scene.drivers[(sweep.number or 1) - 1].link
-        words = f"driver's angle φ of link {name}, deg"
+        axis = f"{said('curves.axis_turn', k=name)}, {said('unit.deg')}"
     elif sweep.what == "time":
-        words = "time t, s"
+        axis = f"{said('curves.axis_time')}, {said.unit('s')}"
     else:
-        words = f"driver's coordinate s, {found.length_unit}"
-    words += ": time runs from right to left" if sweep.runs_backwards else ""
+        axis = f"{said('curves.axis_slide')}, {found.in_lengths[0]}"
+    axis = said("curves.backwards", axis=axis) if sweep.runs_backwards else axis
     factor = axis_factor(found)
     room = 0.0 if found.cycle.path.whole else 0.02 * (high - low)
     low, high = (low - room) * factor, (high + room) * factor
     at = found.broken(found.at * factor)
-    return AcrossAxis(at, low, high, words, ticks, uprights(found))
+    return AcrossAxis(at, low, high, axis, ticks, uprights(found), said("decimal_mark"))
 
 
 def uprights(found: Sampled) -> list[Upright]:
     """The lines at dead points, change points and the scene's position, with their words."""
     factor = axis_factor(found)
     lines = [
-        Upright(each.at * factor, "limit", "dead point" if each.kind == "dead" else "change point")
+        Upright(each.at * factor, "limit", found.words(f"curves.{each.kind}"))
         for each in found.cycle.singulars
     ]
     sweep = found.cycle.sweep
@@ -397,7 +425,7 @@ def uprights(found: Sampled) -> list[Upright]:
         low, high = found.at.min(), found.at.max()
         at = found.cycle.path.found_at(sweep.start, low, high)
         if low <= at <= high:
-            lines.append(Upright(at * factor, "here", "scene's position"))
+            lines.append(Upright(at * factor, "here", found.words("curves.here")))
     return lines
 
 

@@ -37,6 +37,7 @@ from graphkin.motion.curves.over_driver import (
     pictures,
     sampled,
     some_of,
+    titled,
 )
 from graphkin.motion.cycle import Cycle
 from graphkin.motion.single_loop import Band, Loop, Ring, class_of, loop_of
@@ -52,13 +53,13 @@ class Outline(Struct, frozen=True):
     """The mechanism in the scene's position; ``factor`` converts metres to the figure's unit.
 
     ``drawn`` means that the scene itself can be drawn; otherwise the first row of the cycle
-    replaces it. ``left_out`` says what is not drawn.
+    replaces it. ``left_out`` are the numbers of links drawn and of all, if some are not drawn.
     """
 
     drawing: Drawing
     factor: float
     drawn: bool
-    left_out: str = ""
+    left_out: tuple[int, int] | None = None
 
     @property
     def places(self) -> Mapping[str, complex]:
@@ -103,7 +104,7 @@ def stand_about(cycle: Cycle, factor: float, points: Collection[str]) -> Outline
     return replace(
         stand,
         drawing=replace(stand.drawing, scene=replace(scene, links=links)),
-        left_out=f"{len(links)} of {len(every)} links drawn",
+        left_out=(len(links), len(every)),
     )
 
 
@@ -153,23 +154,24 @@ def path_points(found: Sampled) -> list[str]:
 
 def paths(found: Sampled) -> Page:
     """The path of every point of interest, with the mechanism in the scene's position."""
-    names, more = some_of(path_points(found), MOST_PATHS, "points")
+    said = found.words
+    names, title = some_of(found, "paths", path_points(found), MOST_PATHS)
     stand = stand_about(found.cycle, found.per_length, names)
     curves = {
         name: np.asarray(found.solution.points[name].position) * found.per_length for name in names
     }
     box = box_of([stand.corners, *curves.values()])
     lines = [
-        ChartCurve(f"path of {symbol(name)}", found.broken(curve), i)
+        ChartCurve(said("curves.path", p=symbol(name)), found.broken(curve), i)
         for i, (name, curve) in enumerate(curves.items())
     ]
     dots = [
         ChartCurve("", dotted(found, curve), i, dot=DOT) for i, curve in enumerate(curves.values())
     ]
-    plane = plane_of(found, f"Paths of points{more}", box, [*lines, *dots])
-    note = ", a dot every 30° of the driver" if found.cycle.sweep.what == "turn" else ""
-    note = f"mechanism as the scene has it{note}" if stand.drawn else note.lstrip(", ")
-    return plane_page(plane, outline(stand, plane), note=noting(note, stand))
+    plane = plane_of(found, title, box, [*lines, *dots])
+    notes = ["curves.as_given"] if stand.drawn else []
+    notes += ["curves.dots"] if found.cycle.sweep.what == "turn" else []
+    return plane_page(plane, outline(stand, plane), note=noting(found, stand, *map(said, notes)))
 
 
 def dotted(found: Sampled, curve: np.ndarray) -> np.ndarray:
@@ -207,20 +209,20 @@ def both_centrodes(found: Sampled, link: str) -> Page:
     touch = here[2] * found.per_length
     window = near_box(places, [fixed, moving], stand.breadth(), touch)
     curves = [
-        ChartCurve("fixed centrode", unbroken(found, fixed, window), 0),
+        ChartCurve(found.words("curves.fixed"), unbroken(found, fixed, window), 0),
         ChartCurve(
-            f"moving centrode, carried by link {escape(link)}", unbroken(found, moving, window), 1
+            found.words("curves.moving", k=escape(link)), unbroken(found, moving, window), 1
         ),
     ]
-    plane = plane_of(found, f"Centrodes of link {link}", window, curves)
+    plane = plane_of(found, found.words("curves.centrodes", k=link), window, curves)
     above: list[Mark] = []
     if inside(touch, window):
         x, y = plane(touch)
         above.append(CircleMark(x, y, 2 * DOT, f"dot {HUES[INK]}", "centre"))
         name = indexed("I", link) if link.isalnum() else "*I*"
         above.append(Text(x + 2, y - 2, name, "caption", 2.5, name="centre"))
-    note = "the moving centrode rolls on the fixed one; they touch in the instantaneous centre"
-    return plane_page(plane, outline(stand, plane), above, noting(note, stand))
+    note = noting(found, stand, found.words("curves.rolls"))
+    return plane_page(plane, outline(stand, plane), above, note)
 
 
 def at_scene(found: Sampled, link: str) -> tuple[complex, complex, complex]:
@@ -244,12 +246,16 @@ def unbroken(found: Sampled, curve: np.ndarray, window: Box) -> np.ndarray:
 
 def plane_of(found: Sampled, title: str, box: Box, curves: Sequence[ChartCurve]) -> PlaneChart:
     """A figure with equal scales over a box."""
-    return PlaneChart(f"{title}: {found.title}", found.length_unit, box, curves)
+    unit, mark = found.in_lengths[0], found.words("decimal_mark")
+    return PlaneChart(titled(found, title), unit, box, curves, mark)
 
 
-def noting(note: str, stand: Outline) -> str:
-    """The note below a figure, with what is left out."""
-    return "; ".join(filter(None, (note, stand.left_out)))
+def noting(found: Sampled, stand: Outline, *notes: str) -> str:
+    """The notes below a figure, with what is left out."""
+    if stand.left_out is None:
+        return found.words.clauses(notes)
+    some, every = stand.left_out
+    return found.words.clauses([*notes, found.words("curves.links_drawn", some=some, all=every)])
 
 
 def box_of(parts: list[np.ndarray]) -> Box:
@@ -298,11 +304,11 @@ def reach(found: Sampled, loop: Loop) -> Page:
         foot = foot_of(loop.reach, loop) if isinstance(loop.path, Ring) else loop.reach.line.point
         parts.append(np.array([foot + half, foot - half]) * factor)
     box = box_of([stand.corners, *parts])
-    what = "What the driven pin passes, and what the rest can reach"
-    plane = plane_of(found, what, box, [*limits(loop, factor, box), *pin_path(loop, factor)])
+    curves = [*limits(found, loop, box), *pin_path(found, loop)]
+    plane = plane_of(found, found.words("curves.reach"), box, curves)
     below = [*area_in(plane, rim_of(loop, factor, box), "shade"), *outline(stand, plane)]
     above = dead_marks(plane, found, loop)
-    return plane_page(plane, below, [*above], noting(reach_note(loop), stand))
+    return plane_page(plane, below, [*above], noting(found, stand, *reach_notes(found, loop)))
 
 
 def foot_of(band: Band, loop: Loop) -> complex:
@@ -352,41 +358,41 @@ def rim_of(loop: Loop, factor: float, box: Box) -> np.ndarray:
     return np.concatenate(rims(loop, factor, box))
 
 
-def limits(loop: Loop, factor: float, box: Box) -> list[ChartCurve]:
+def limits(found: Sampled, loop: Loop, box: Box) -> list[ChartCurve]:
     """The edges of the ring or band, and the middle line of a band."""
-    found = [
-        ChartCurve(words, edge, GREEN)
-        for words, edge in zip((within(loop), ""), rims(loop, factor, box), strict=True)
+    factor = found.per_length
+    edges = [
+        ChartCurve(label, edge, GREEN)
+        for label, edge in zip((within(found, loop), ""), rims(loop, factor, box), strict=True)
     ]
     if isinstance(loop.reach, Ring):
-        return found
+        return edges
     line = loop.reach.line
     long = 2 * max(abs(bound) for bound in box) + abs(line.point) * factor
     middle = line.point * factor + np.array([-1, 1]) * line.along * long
-    return [*found, ChartCurve("", middle, GREY, 3)]
+    return [*edges, ChartCurve("", middle, GREY, 3)]
 
 
-def within(loop: Loop) -> str:
+def within(found: Sampled, loop: Loop) -> str:
     """The legend of the filled area, as markup."""
-    if isinstance(loop.reach, Ring):
-        return (
-            f"ring that the two links of {symbol(loop.pins[2])} reach about {symbol(loop.pins[3])}"
-        )
-    return f"band that the rod reaches on either side of the path of {symbol(loop.pins[2])}"
+    pin, about = symbol(loop.pins[2]), symbol(loop.pins[3])
+    key = "curves.ring" if isinstance(loop.reach, Ring) else "curves.band"
+    return found.words(key, p=pin, o=about)
 
 
-def pin_path(loop: Loop, factor: float) -> Iterator[ChartCurve]:
+def pin_path(found: Sampled, loop: Loop) -> Iterator[ChartCurve]:
     """The driven pin's path, solid where it is within reach, dashed and red elsewhere."""
-    places = path_places(loop)
+    places, factor = path_places(loop), found.per_length
     good = reached(loop, places)
-    what = f"{'circle' if isinstance(loop.path, Ring) else 'line'} of {symbol(loop.pins[1])}"
+    what = "circle" if isinstance(loop.path, Ring) else "line"
     for flags, hue, stroke, name in (
-        (good, BLUE, 0, f"{what}, within reach"),
-        (~good, RED, 1, f"{what}, out of reach"),
+        (good, BLUE, 0, "within"),
+        (~good, RED, 1, "beyond"),
     ):
         if flags.any():
             line = np.where(flags, places, complex(np.nan, np.nan)) * factor
-            yield ChartCurve(name, line, hue, stroke)
+            label = found.words(f"curves.{what}_{name}", p=symbol(loop.pins[1]))
+            yield ChartCurve(label, line, hue, stroke)
 
 
 def dead_marks(plane: PlaneChart, found: Sampled, loop: Loop) -> Iterator[Mark]:
@@ -404,19 +410,21 @@ def dead_marks(plane: PlaneChart, found: Sampled, loop: Loop) -> Iterator[Mark]:
             place = complex(np.ravel(np.asarray(row.solution.points[loop.pins[1]].position))[0])
             sign = "φ" if cycle.sweep.what == "turn" else "s"
             value = end.at if cycle.sweep.what == "turn" else end.at * found.per_length
-            unit = "°" if cycle.sweep.what == "turn" else f" {found.length_unit}"
-            words = f"*{sign}* = {value:.2f}{unit}".replace("-", "−")
-            yield from noted(plane, place * found.per_length, words, RED)
+            unit = "°" if cycle.sweep.what == "turn" else f" {found.in_lengths[0]}"
+            label = f"*{sign}* = {found.words.decimal(f'{value:.2f}')}{unit}"
+            yield from noted(plane, place * found.per_length, label, RED)
 
 
-def reach_note(loop: Loop) -> str:
+def reach_notes(found: Sampled, loop: Loop) -> Iterator[str]:
     """The verdict below the figure."""
-    more = "; further groups may narrow the range" if loop.more else ""
+    said = found.words
     if loop.kind == "four-bar":
-        turns = "turns fully" if loop.turns else "cannot turn fully"
-        return f"{class_of(loop)}: the driver {turns}{more}"
-    says = "the driver turns fully" if loop.turns else "the driver moves between dead points"
-    return f"slider-crank: {says}{more}"
+        name, verdict = class_of(loop).replace(" ", "-"), "turns" if loop.turns else "rocks"
+    else:
+        name, verdict = "slider-crank", "turns" if loop.turns else "between_dead"
+    yield said(f"curves.{verdict}", loop=said(f"curves.loop.{name}"))
+    if loop.more:
+        yield said("curves.reach_more")
 
 
 # --- the figure files of a cycle ------------------------------------------------------------------
@@ -427,7 +435,7 @@ def picture_files(
 ) -> dict[str, bytes]:
     """Every figure of a cycle by its file name, in each of the formats svg and png.
 
-    The scene's title is in a language, None for the scene's own; all other words are English.
+    Their words are in a language, None for the scene's own.
     """
     from graphkin.writers.svg import write_svg
 
