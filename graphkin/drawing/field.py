@@ -231,7 +231,7 @@ class SheetPaper(Struct, frozen=True, dict=True):
 
     @cached_property
     def marked(self) -> tuple[float, float]:
-        """Text left of this x, or above this y, is clear of the lower or the right centring mark."""
+        """Text left of this x, or above this y, is clear of the lower or right centring mark."""
         if self.is_leaf:
             return self.left[2] - 4, self.area[3]
         return self.width / 2 - 3, self.area[3] - 11
