@@ -245,9 +245,11 @@ class Course(Struct, frozen=True, dict=True):
         """The values that close the followed groups, by step, for each u (N,).
 
         With ``keep``, only the groups that these steps depend on, and groups in ``closed`` are taken
-        as given: beyond where a group was followed, each position would be searched anew.
+        as given: beyond where a group was followed, each position would be searched anew. NaN beyond
+        where the path of any group ends, because the mechanism closes nowhere there.
         """
         found: dict[int, tuple[Any, ...]] = dict(closed or {})
+        lost = np.any([way.lost(at) for way in self.closures], axis=0)
         needed = self.closers if keep is None else self.closed_behind(keep)
         for number, way in zip(self.closers, self.closures, strict=False):
             if number in found or number not in needed:
@@ -256,7 +258,7 @@ class Course(Struct, frozen=True, dict=True):
             stated = closing(self.program.steps[number]).number
             with np.errstate(all="ignore"):
                 group = self.group(self.closers.index(number))
-                found[number] = way.closed(group, stated, at, known)
+                found[number] = way.closed(group, stated, at, known, lost)
         return found
 
     def closed_behind(self, keep: tuple[int, ...]) -> frozenset[int]:

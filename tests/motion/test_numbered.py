@@ -23,6 +23,7 @@ from graphkin.motion.follower_limits import followers
 from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import Closure
 from graphkin.scene.read_scene import read_text
+from tests.chance.checking import case
 from tests.scene_files import FOLDER
 
 
@@ -277,3 +278,18 @@ def test_a_motion_goes_on_where_two_links_of_a_group_are_in_line():
         way = (places[plate] - places[pin]) / abs(places[plate] - places[pin])
         lines.append((way.real, way.imag, (places[pin].conjugate() * way).imag / 0.1))
     assert np.linalg.det(lines) == pytest.approx(0, abs=0.02)
+
+
+@pytest.mark.parametrize("seed", [9950002, 9950066])
+def test_nothing_is_searched_where_a_closure_is_followed_or_lost(seed, monkeypatch):
+    """Links are led back past where a group was followed, and on past where another ends."""
+
+    def searched(group, at):
+        raise AssertionError(f"searched at {at}")
+
+    made = case(seed).mechanism
+    sweep = sweep_of(made.scene, driver=1)
+    course = Course(sweep, sweep.original.branches)
+    monkeypatch.setattr(GroupOnWay, "closures", searched)
+    found = carried_about(course, sweep.at_scene)
+    assert len(found.closures) == len(found.closers) > 0

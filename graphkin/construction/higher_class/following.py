@@ -452,14 +452,15 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return None
 
     def closed(
-        self, group: GroupOnWay, number: int, at: Reals, known: Sequence[Reals]
+        self, group: GroupOnWay, number: int, at: Reals, known: Sequence[Reals], lost: Reals
     ) -> tuple[Any, ...]:
         """The values that close the group at each u (K,), as its solver gives them; else NaN.
 
-        Where the path was not followed, the closure with the given number is searched for.
+        Where the path was not followed, the closure with the given number is searched for, unless
+        the position is ``lost``.
         """
         rows = self.rows(group, at, known)
-        rest = np.flatnonzero(~self.covers(at) & ~self.lost(at))
+        rest = np.flatnonzero(~self.covers(at) & ~lost)
         if rest.size:
             sought = np.array(group.closures(at[rest]).sure(number))
             rows[rest] = sought[:, 1:]
