@@ -244,9 +244,9 @@ class Course(Struct, frozen=True, dict=True):
     ) -> dict[int, tuple[Any, ...]]:
         """The values that close the followed groups, by step, for each u (N,).
 
-        With ``keep``, only the groups that these steps depend on, and groups in ``closed`` are taken
-        as given: beyond where a group was followed, each position would be searched anew. NaN beyond
-        where the path of any group ends, because the mechanism closes nowhere there.
+        With ``keep``, only the groups that these steps depend on. Groups in ``closed`` are taken as
+        given: beyond where a group was followed, each position would be searched anew. NaN where
+        the path of any group has ended, because the mechanism closes nowhere there.
         """
         found: dict[int, tuple[Any, ...]] = dict(closed or {})
         lost = np.any([way.lost(at) for way in self.closures], axis=0)

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import pieces_words, range_words
 from graphkin.construction.higher_class.closure_solver import Trying
-from graphkin.construction.higher_class.following import GroupOnWay
+from graphkin.construction.higher_class.following import GroupOnWay, Place
 from graphkin.construction.higher_class.trial_rates import Spread, best_of, enlarged
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.closures_followed import carried, carried_about, changes, numbers_at
@@ -293,3 +293,11 @@ def test_nothing_is_searched_where_a_closure_is_followed_or_lost(seed, monkeypat
     monkeypatch.setattr(GroupOnWay, "closures", searched)
     found = carried_about(course, sweep.at_scene)
     assert len(found.closures) == len(found.closers) > 0
+
+
+@pytest.mark.parametrize("step", [0.0, 1e-17])
+def test_a_group_at_rest_is_at_no_fold(step):
+    """Its steps were shortened for another reason; no curve goes through one point."""
+    angles = np.zeros(2)
+    found = [Place(0.1 * n, np.array([1 + step * n, 2.0]), angles, angles) for n in range(5)]
+    assert GroupOnWay(None, None, 360.0).fold(found, 1.0, np.ones(4)) is None
