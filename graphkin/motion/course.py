@@ -152,7 +152,7 @@ class Course(Struct, frozen=True, dict=True):
         """
         some = self.counting if links is None else tuple(links)
         keep = tuple(self.program.targets["turned", link] for link in some)
-        overrides = self.closing(values, at, closed=closed)
+        overrides = self.closing(values, at, keep, closed)
         trace = self.run_ready(keep, values, overrides)
         return {link: spread(trace.value("turned", link), len(at)) for link in some}
 
@@ -239,26 +239,38 @@ class Course(Struct, frozen=True, dict=True):
         self,
         values: Mapping[str, Any],
         at: Reals,
-        before: int | None = None,
+        keep: tuple[int, ...] | None = None,
         closed: Mapping[int, Any] | None = None,
     ) -> dict[int, tuple[Any, ...]]:
         """The values that close the followed groups, by step, for each u (N,).
 
-        With ``before``, only the groups before that step. Groups in ``closed`` are taken as given:
-        beyond where a group was followed, each position would be searched anew.
+        With ``keep``, only the groups that these steps depend on. Groups in ``closed`` are taken as
+        given: beyond where a group was followed, each position would be searched anew. NaN where
+        the path of any group has ended, because the mechanism closes nowhere there.
         """
         found: dict[int, tuple[Any, ...]] = dict(closed or {})
-        for k, way in enumerate(self.closures):
-            number = self.closers[k]
-            if number == before:
-                break
-            if number in found:
+        lost = np.any([way.lost(at) for way in self.closures], axis=0)
+        needed = self.closers if keep is None else self.closed_behind(keep)
+        for number, way in zip(self.closers, self.closures, strict=False):
+            if number in found or number not in needed:
                 continue
             known = self.known_of(number, values, len(at), found)
             stated = closing(self.program.steps[number]).number
             with np.errstate(all="ignore"):
-                found[number] = way.closed(self.group(k), stated, at, known)
+                group = self.group(self.closers.index(number))
+                found[number] = way.closed(group, stated, at, known, lost)
         return found
+
+    def closed_behind(self, keep: tuple[int, ...]) -> frozenset[int]:
+        """The steps that close the groups on which some steps depend."""
+        if keep not in self._behind:
+            self._behind[keep] = frozenset(self.closers).intersection(self.program.behind(keep))
+        return self._behind[keep]
+
+    @cached_property
+    def _behind(self) -> dict[tuple[int, ...], frozenset[int]]:
+        """The groups known to stand behind some steps."""
+        return {}
 
     @cached_property
     def _readied(self) -> dict[Any, Ready]:
@@ -268,7 +280,8 @@ class Course(Struct, frozen=True, dict=True):
     def known_at(self, number: int, at: Reals) -> list[Reals]:
         """The inputs of a step at each u (N,), with earlier groups as they were followed."""
         values = self.values(at)
-        return self.known_of(number, values, len(at), self.closing(values, at, number))
+        args = tuple(self.program.steps[number].args)
+        return self.known_of(number, values, len(at), self.closing(values, at, args))
 
     def known_of(
         self,
@@ -311,10 +324,10 @@ class Course(Struct, frozen=True, dict=True):
         """Values of the targets (all if None) and margins of the crossings, for each u (N,)."""
         wanted = list(self.program.answers if targets is None else targets)
         needed = self.program.needed(wanted)
-        keep = [self.program.targets[target] for target in wanted]
+        keep = tuple(self.program.targets[target] for target in wanted)
         at = np.asarray(at, dtype=float)
         values = self.values(at, geometric=geometric)
-        overrides = self.closing(values, at)
+        overrides = self.closing(values, at, keep)
         with np.errstate(all="ignore"):
             if overrides:
                 return run_batch(

@@ -70,12 +70,22 @@ def led_elsewhere(found: Cycle) -> list[str]:
     wrong = []
     for of in points:
         with np.errstate(all="ignore"):
-            way = (8 * (place[of][3] - place[of][1]) - place[of][4] + place[of][0]) / 12
-            seen = way / (step * found.sweep.per_unit)
-            off = np.abs(seen - rate[of]) / size
+            off = np.abs(differences(place[of]) / (step * found.sweep.per_unit) - rate[of]) / size
+            off = np.min(off, axis=0)
         over = np.flatnonzero(calm & (off > CLOSE))
         wrong += [f"{of} at {at[k]:.6g} goes {off[k]:.1e} otherwise" for k in over[:1]]
     return wrong
+
+
+def differences(place: np.ndarray) -> np.ndarray:
+    """How far a point goes in a step, by five positions (5, N): about them, behind and ahead.
+
+    Where a velocity jumps, as a cam's law may make it, only those of one side say it.
+    """
+    two, one, here, next_one, next_two = place
+    about = (8 * (next_one - one) - next_two + two) / 12
+    behind, ahead = 3 * here - 4 * one + two, 4 * next_one - 3 * here - next_two
+    return np.array([about, behind / 2, ahead / 2])
 
 
 def judged(seed: int) -> tuple[str, str]:

@@ -9,6 +9,7 @@ from tests.chance.moving import faults, moved
 from tests.chosen import EVERY
 
 SEEN = {
+    8200000: "a row at which a cam's law makes velocities jump",
     922004: "a link past half a turn, whose wheel's block the program counts instead",
     8800615: "a row so near a dead point that differences of positions err",
 }

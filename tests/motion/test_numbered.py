@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from graphkin.cli.report.cycle_report import pieces_words, range_words
 from graphkin.construction.higher_class.closure_solver import Trying
-from graphkin.construction.higher_class.following import GroupOnWay
+from graphkin.construction.higher_class.following import GroupOnWay, Place
 from graphkin.construction.higher_class.trial_rates import Spread, best_of, enlarged
 from graphkin.mechanism import Mechanism, load
 from graphkin.motion.closures_followed import carried, carried_about, changes, numbers_at
@@ -23,6 +23,7 @@ from graphkin.motion.follower_limits import followers
 from graphkin.motion.sweep import sweep_of
 from graphkin.scene.model import Closure
 from graphkin.scene.read_scene import read_text
+from tests.chance.checking import case
 from tests.scene_files import FOLDER
 
 
@@ -277,3 +278,26 @@ def test_a_motion_goes_on_where_two_links_of_a_group_are_in_line():
         way = (places[plate] - places[pin]) / abs(places[plate] - places[pin])
         lines.append((way.real, way.imag, (places[pin].conjugate() * way).imag / 0.1))
     assert np.linalg.det(lines) == pytest.approx(0, abs=0.02)
+
+
+@pytest.mark.parametrize("seed", [9950002, 9950066])
+def test_nothing_is_searched_where_a_closure_is_followed_or_lost(seed, monkeypatch):
+    """Links are led back past where a group was followed, and on past where another ends."""
+
+    def searched(group, at):
+        raise AssertionError(f"searched at {at}")
+
+    made = case(seed).mechanism
+    sweep = sweep_of(made.scene, driver=1)
+    course = Course(sweep, sweep.original.branches)
+    monkeypatch.setattr(GroupOnWay, "closures", searched)
+    found = carried_about(course, sweep.at_scene)
+    assert len(found.closures) == len(found.closers) > 0
+
+
+@pytest.mark.parametrize("step", [0.0, 1e-17])
+def test_a_group_at_rest_is_at_no_fold(step):
+    """Its steps were shortened for another reason; no curve goes through one point."""
+    angles = np.zeros(2)
+    found = [Place(0.1 * n, np.array([1 + step * n, 2.0]), angles, angles) for n in range(5)]
+    assert GroupOnWay(None, None, 360.0).fold(found, 1.0, np.ones(4)) is None

@@ -190,7 +190,7 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         """The places from the last one to the fold with another closure; None if none is near.
 
         One of the trial values is the parameter of this part of the path. As a function of it, u
-        has its extreme at the fold.
+        has its extreme at the fold. A group at rest, or one that turns round, is at none.
         """
         if len(found) < ORDER:
             return None
@@ -199,6 +199,8 @@ class GroupOnWay(Struct, frozen=True, dict=True):
         step = (found[-1].tried - found[-2].tried) / size[:count]
         lead = int(abs(step).argmax())
         s, u = np.array([(place.tried[lead], place.at) for place in found[-3:]]).T
+        if not (np.diff(s) * np.sign(step[lead]) > SURE * size[lead]).all():
+            return None
         bend = np.polynomial.Polynomial.fit(s, u, 2)
         peak = bend.deriv().roots()
         if not len(peak) or bend.deriv(2)(s[-1]) * way >= 0:
@@ -452,14 +454,15 @@ class FollowedClosure(Struct, frozen=True, eq=False):
         return None
 
     def closed(
-        self, group: GroupOnWay, number: int, at: Reals, known: Sequence[Reals]
+        self, group: GroupOnWay, number: int, at: Reals, known: Sequence[Reals], lost: Reals
     ) -> tuple[Any, ...]:
         """The values that close the group at each u (K,), as its solver gives them; else NaN.
 
-        Where the path was not followed, the closure with the given number is searched for.
+        Where the path was not followed, the closure with the given number is searched for, unless
+        the position is ``lost``.
         """
         rows = self.rows(group, at, known)
-        rest = np.flatnonzero(~self.covers(at) & ~self.lost(at))
+        rest = np.flatnonzero(~self.covers(at) & ~lost)
         if rest.size:
             sought = np.array(group.closures(at[rest]).sure(number))
             rows[rest] = sought[:, 1:]
