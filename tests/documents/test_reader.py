@@ -23,8 +23,6 @@ CLOSE = 0.3
 LABS = ("pump", "pump-collinear", "slotted-lever") if EVERY else ("pump", "pump-collinear")
 APART = {
     "gears-kutzbach": "Kutzbach’s plan, which stands where the hand likes on its axis",
-    **dict.fromkeys(("gears-ravigneaux", "gears-simpson"), "a sheet that goes on"),
-    "valve-train": "links whose names are words",
     **dict.fromkeys(
         ("plank-axle", "plank-hinged", "plank-two-sizes"), "a wheel that slips while links move"
     ),
