@@ -271,7 +271,8 @@ class Reader(Trials):
         for foot in crossings(Circle(pivot, number(drawn)), thales):
             along = ahead * (pin - foot) / abs(pin - foot)
             its = 1j * along if side[1] == "left" else -1j * along
-            if dot(SIDES[side[2]] if side[2] else its, foot - pivot) > 0:
+            beside = dot(SIDES[side[2]] if side[2] else its, foot - pivot)
+            if beside > abs(foot - pivot) / 100:  # what lies square to a side is not on it
                 found.append(along)
         if len(found) != 1:
             raise DefectError(f"{len(found)} tangents from {q} leave it where the data tell")

@@ -23,9 +23,7 @@ CLOSE = 0.3
 LABS = ("pump", "pump-collinear", "slotted-lever") if EVERY else ("pump", "pump-collinear")
 APART = {
     "gears-kutzbach": "Kutzbach’s plan, which stands where the hand likes on its axis",
-    **dict.fromkeys(
-        ("plank-axle", "plank-hinged", "plank-two-sizes"), "a wheel that slips while links move"
-    ),
+    **dict.fromkeys(("plank-axle", "plank-two-sizes"), "a wheel that slips while links move"),
     **dict.fromkeys(("plates-coupled", "plates-ring"), "a link tried while another is moved"),
 }
 """What the reader has no rule for, by the scenes that need it."""
@@ -52,7 +50,7 @@ LEFT_OUT = (
     "step {} leaves out a normal component of {} mm as too short to be drawn: {} falls {} mm off"
 )
 DEFECTS = {
-    "watt-2": LEFT_OUT.format(4, 0.32, "d′", 0.52),
+    "watt-2": LEFT_OUT.format(4, 0.43, "d′", 0.69),
 }
 """Why the accelerations of a page lead farther from the key than they should."""
 
