@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from tests.documents.printed_sheet import NAME, NUMBER, RADIUS, canonical, number
+from tests.documents.printed_sheet import NAME, NUMBER, RADIUS, WHEEL, canonical, number
 from tests.documents.reader_rules import RULES, TURNING, VECTOR
 from tests.documents.ruler_and_compass import APART, Circle, DefectError, Line, cross, dot
 
@@ -78,6 +78,8 @@ class Hand:
     """The points of links that were moved in steps until they closed."""
     frame: dict[str, complex] = field(default_factory=dict)
     """The fixed points of the data, in mm of the mechanism."""
+    resting: set[str] = field(default_factory=set)
+    """The points in which wheels touch fixed wheels: there is no slip, so they have no velocity."""
     own: dict[str, dict[str, complex]] = field(default_factory=dict)
     """The points of links in their own axes, as printed, in mm of the mechanism."""
     faces: dict[str, complex] = field(default_factory=dict)
@@ -119,6 +121,9 @@ class Hand:
             if match := re.fullmatch(r"(.*): in the axes of link (\w+)", item):
                 told = (each.split(" ≡ ") for each in match[1].split(", "))
                 self.own[match[2]] = {names[-1]: given.pop(names[0]) for names in told}
+        touches = rf"(?:gear|wheel) {WHEEL} (?:meshes|rolls) in ({NAME}) (?:with|on) the fixed "
+        found = (re.match(touches, item) for item in self.items)
+        self.resting = {canonical(match[1]) for match in found if match}
         self.frame = {canonical(name): where for name, where in given.items()}
         anchor = next((name for name in self.frame if name in self.place), None)
         if anchor:
@@ -215,7 +220,7 @@ class Hand:
         point = canonical(point)
         if point in self.image_of:
             return self.image_of[point]
-        if point in self.frame:
+        if point in self.frame or point in self.resting:
             return "o"
         return point[0].lower() + (f"_{point[1:]}" if point[1:] else "")
 
@@ -318,7 +323,7 @@ class Hand:
 
     def centre(self, link: str) -> complex:
         """The centre of a wheel."""
-        item = self.told_of(rf"(?:inner )?(?:gear|wheel|ring) {link}: centre")
+        item = self.told_of(rf"(?:internal )?(?:gear|wheel|ring) {link}: centre")
         return self.at(re.search(rf"centre ({NAME})", item)[1])
 
     def driven_way(self, of: str, symbol: str, said: str) -> complex:

@@ -5,12 +5,16 @@ from __future__ import annotations
 import re
 import tomllib
 from dataclasses import dataclass
+from itertools import takewhile
 from pathlib import Path
 from xml.etree import ElementTree
 
-NAME = r"[A-Za-z][′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
+SIGNS = r"[′″‴]*(?:_\{[^}]*\})?(?:\^\{IV\})?"
+NAME = rf"[A-Za-z]{SIGNS}"
 """The name of a point as it is printed."""
-WHEEL, RADIUS = r"\d+[′″‴]*", r"r_\{[^}]*\}"
+LINK = r"\w+"
+"""What a link is called: a number or a word."""
+WHEEL, RADIUS = rf"{LINK}[′″‴]*", r"r_\{[^}]*\}"
 """What a wheel is called, one of several of a link by its strokes, and the symbol of its radius."""
 FOOT = 201.0
 """Where the drawings of an A3 sheet end, in mm from its upper edge."""
@@ -85,8 +89,12 @@ class Printed:
     @property
     def links(self) -> dict[str, str]:
         """What the links are by their numbers, as a task lists them."""
-        line = next((line for line in self.lines if line.startswith(LINKS)), LINKS)
-        return dict(re.findall(r"(\d+) = ([^,]+)", line))
+        at = next((n for n, line in enumerate(self.lines) if line.startswith(LINKS)), None)
+        if at is None:
+            return {}
+        rest = takewhile(lambda line: not line.startswith(ENDS), self.lines[at:])
+        listed = rf"({LINK}) = ((?:[a-z]+ )?(?:[A-Z]{SIGNS})+)(?=[ ,]|$)"
+        return dict(re.findall(listed, " ".join(rest)))
 
 
 def printed_sheets(path: Path) -> Printed:

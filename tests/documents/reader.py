@@ -21,6 +21,7 @@ from pathlib import Path
 
 from tests.documents.hand import MILLIMETRES, SIDES, WAYS, sliding
 from tests.documents.printed_sheet import (
+    LINK,
     NAME,
     NUMBER,
     RADIUS,
@@ -50,7 +51,7 @@ class Reader(Trials):
         "over the motion .*",
         "draw the path of .*",
         "nothing is set on the mechanism, because .*",
-        "join ⟨p⟩⟨q⟩: link ⟨k:number⟩ is idle and fits by itself",
+        "join ⟨p⟩⟨q⟩: link ⟨k:link⟩ is idle and fits by itself",
         "join ⟨p⟩⟨q⟩: link .*? replaces the contact at this instant",
         "the perpendiculars are parallel: .* is at infinity",
     )
@@ -70,7 +71,7 @@ class Reader(Trials):
         self.ray = Line.of(self.at(p), along)
 
     @says(
-        "cut pin ⟨pin⟩: move link ⟨k:number⟩ in steps, draw it each time and mark the locus of "
+        "cut pin ⟨pin⟩: move link ⟨k:link⟩ in steps, draw it each time and mark the locus of "
         "⟨p2⟩; where it cuts the arc of radius ⟨p⟩⟨q⟩ about ⟨c⟩ they close: closure ⟨n:number⟩"
     )
     def cut(self, pin: str, k: str, p: str, q: str, c: str, n: str, **_: str) -> None:
@@ -182,7 +183,7 @@ class Reader(Trials):
 
         return drawn
 
-    @says("set link ⟨k:number⟩ at its angle about ⟨p⟩: (?P<names>[^;]*)")
+    @says("set link ⟨k:link⟩ at its angle about ⟨p⟩: (?P<names>[^;]*)")
     def set_link(self, k: str, p: str, names: str) -> None:
         """A plate whose own axes the data give: its x axis at the driver's angle."""
         self.lies[k] = turned = cmath.rect(1, self.angle("φ"))
@@ -215,7 +216,7 @@ class Reader(Trials):
         size = number(drawn) if drawn else self.length(s, t)
         self.put(name, self.at(s) + along / abs(along) * size)
 
-    @says("join ⟨p⟩ and ⟨q⟩: link ⟨k:number⟩ lies on this line")
+    @says("join ⟨p⟩ and ⟨q⟩: link ⟨k:link⟩ lies on this line")
     def join(self, p: str, q: str, k: str) -> None:
         self.ray = Line.of(self.at(p), self.at(q) - self.at(p))
         self.bearing, self.tangent = (p, q), None
@@ -252,7 +253,7 @@ class Reader(Trials):
 
     @says(
         "circle of radius ⟨drawn:number⟩ mm about ⟨p⟩; Thales’ circle with ⟨m⟩⟨n⟩ as diameter "
-        "meets it where the tangent from ⟨q⟩ touches: link ⟨k:number⟩ lies parallel to this tangent"
+        "meets it where the tangent from ⟨q⟩ touches: link ⟨k:link⟩ lies parallel to this tangent"
     )
     def tangent_from(self, drawn: str, p: str, m: str, n: str, q: str, k: str) -> None:
         """Of the two tangents that on which the pin lies where the data tell: side and place."""
@@ -270,19 +271,20 @@ class Reader(Trials):
         for foot in crossings(Circle(pivot, number(drawn)), thales):
             along = ahead * (pin - foot) / abs(pin - foot)
             its = 1j * along if side[1] == "left" else -1j * along
-            if dot(SIDES[side[2]] if side[2] else its, foot - pivot) > 0:
+            beside = dot(SIDES[side[2]] if side[2] else its, foot - pivot)
+            if beside > abs(foot - pivot) / 100:  # what lies square to a side is not on it
                 found.append(along)
         if len(found) != 1:
             raise DefectError(f"{len(found)} tangents from {q} leave it where the data tell")
         self.lies[k] = self.tangent = found[0]
 
     @says(
-        "guide ⟨k:number⟩ is the face of link ⟨f:number⟩, on which block ⟨k2:number⟩ in ⟨p⟩ "
+        "guide ⟨k:link⟩ is the face of link ⟨f:link⟩, on which block ⟨k2:link⟩ in ⟨p⟩ "
         "replaces the contact at this instant"
     )
     def face(self, k: str, f: str, **_: str) -> None:
         """Square to the guide of a follower, or along the bar of a lever."""
-        item = self.told_of(rf"cam \d+ (?:lifts|swings) link {f},")
+        item = self.told_of(rf"cam {LINK} (?:lifts|swings) link {f},")
         if bar := re.search(rf"a flat face along ({NAME})({NAME})", item):
             self.faces[k] = self.at(bar[2]) - self.at(bar[1])
         elif "a flat face square to its guide" in item:
@@ -294,7 +296,7 @@ class Reader(Trials):
     def draw_the_guide(self) -> None:
         """Drawn when it is cut: the page names its point only then."""
 
-    @says("(?:through ⟨p⟩ )?draw guide ⟨k:number⟩")
+    @says("(?:through ⟨p⟩ )?draw guide ⟨k:link⟩")
     def draw_guide(self, k: str, p: str | None) -> None:
         item = self.told_of(rf"(?:pin )?{sliding(self.sliding_point(k), k)} slides")
         told = re.search(rf"of link (\w+) through ({NAME}) at .* to the x axis of link", item)
@@ -312,7 +314,7 @@ class Reader(Trials):
             raise DefectError(f"guide {k} moves: no point is told through which to draw it")
         self.loci.append(Line(self.at(p), self.direction(f"guide {k}")) if p else self.guide(k))
 
-    @says("draw track ⟨k:number⟩")
+    @says("draw track ⟨k:link⟩")
     def draw_track(self, k: str) -> None:
         self.loci.append(self.track(k))
 
@@ -330,7 +332,7 @@ class Reader(Trials):
 
     @says(
         "parallel to it, on the wheel’s side, the path of the centre at the radius of wheel "
-        "⟨k:number⟩"
+        "⟨k:link⟩"
     )
     def radius_along(self, k: str) -> None:
         rolls = self.told_of(rf"wheel {k} rolls")
@@ -391,7 +393,7 @@ class Reader(Trials):
 
     @says(
         "from the centre of wheel ⟨k:wheel⟩ the perpendicular to its track(?: on link "
-        "⟨g:number⟩)?; it meets it in the point of contact ⟨name⟩"
+        "⟨g:link⟩)?; it meets it in the point of contact ⟨name⟩"
     )
     def contact(self, k: str, g: str | None, name: str) -> None:
         if g and (k, g) not in self.tracks:
@@ -399,7 +401,7 @@ class Reader(Trials):
         track, centre = self.tracks[k, g] if g else self.track(k), self.centre(k)
         self.put(name, track.point + track.along * dot(track.along, centre - track.point))
 
-    @says("draw the track of wheel ⟨k:wheel⟩ on link ⟨g:number⟩: (?P<line>the line .*?)(?=;)")
+    @says("draw the track of wheel ⟨k:wheel⟩ on link ⟨g:link⟩: (?P<line>the line .*?)(?=;)")
     def draw_track_of(self, k: str, g: str, line: str) -> None:
         self.put_track(g, line)
         drawn = self.loci[-1]
@@ -428,7 +430,7 @@ class Reader(Trials):
                 raise DefectError(f"link {g} was found {off:.2f}° from where it is laid off")
         self.loci.append(drawn)
 
-    @says("link ⟨k:number⟩ is placed as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
+    @says("link ⟨k:link⟩ is placed as at the start: from ⟨p⟩ lay off (?P<names>[^;]*) as given")
     def as_at_start(self, k: str, p: str, names: str) -> None:
         rolls = self.told_of(rf"wheel {k} rolls")
         start = re.search(rf"when the x axis of link {k} is at ({NUMBER}°)", rolls)
@@ -446,9 +448,9 @@ class Reader(Trials):
         self.one_of(name, [z for z in found if dot(SIDES[side], z - self.at(p)) > 0])
 
     @says(
-        r"(?:with block \d+ on its guide, )?from ⟨p⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° "
+        r"(?:with block \w+ on its guide, )?from ⟨p⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° "
         r"to the x axis"
-        r"(?:, for link ⟨k:number⟩ has turned by ⟨since:number⟩° since the start"
+        r"(?:, for link ⟨k:link⟩ has turned by ⟨since:number⟩° since the start"
         r"|, as (?P<why>[^:;]*))?: ⟨name⟩"
     )
     def at_angle(self, p, s, t, angle, name, k, since, why):
@@ -464,7 +466,7 @@ class Reader(Trials):
             return
         self.put(name, self.at(p) + along * self.length(s, t))
 
-    @says("from ⟨p⟩ lay off ⟨s⟩⟨t⟩ along the guide of block ⟨k:number⟩, (?P<way>[^,;:]*): ⟨name⟩")
+    @says("from ⟨p⟩ lay off ⟨s⟩⟨t⟩ along the guide of block ⟨k:link⟩, (?P<way>[^,;:]*): ⟨name⟩")
     def along_guide(self, p: str, s: str, t: str, k: str, way: str, name: str) -> None:
         along = self.guide(k).along
         along = math.copysign(1, dot(WAYS[way], along)) * along / abs(along)
@@ -477,7 +479,7 @@ class Reader(Trials):
             raise DefectError(f"{p}{name} was found {off:.2f}° from where it is told to be")
 
     @says(
-        "link ⟨k:number⟩ has rolled on the fixed wheel, from where it touched it at the start, by "
+        "link ⟨k:link⟩ has rolled on the fixed wheel, from where it touched it at the start, by "
         "the angle that it has turned through times the radius, ⟨arc:number⟩ mm: ⟨name⟩"
     )
     def rolled_bar(self, k: str, arc: str, name: str) -> None:
@@ -504,7 +506,7 @@ class Reader(Trials):
         self.put(name, touched - left * turned * along * number(arc))
 
     @says(
-        "link ⟨k:number⟩ has moved with the rim, from where it touched the wheel at the start, by "
+        "link ⟨k:link⟩ has moved with the rim, from where it touched the wheel at the start, by "
         "the arc that the wheel has turned through since, ⟨arc:number⟩ mm: ⟨name⟩"
     )
     def moved_with_rim(self, k: str, name: str, arc: str) -> None:
@@ -534,8 +536,8 @@ class Reader(Trials):
         self.put(name, touched + way / abs(way) * arc)
 
     @says(
-        "draw the rolling line of link ⟨g:number⟩: (?P<line>the line .*?); from the centre of the "
-        "fixed wheel the perpendicular to link ⟨h:number⟩; it meets it in the point of contact "
+        "draw the rolling line of link ⟨g:link⟩: (?P<line>the line .*?); from the centre of the "
+        "fixed wheel the perpendicular to link ⟨h:link⟩; it meets it in the point of contact "
         "⟨name⟩"
     )
     def contact_on_bar(self, line: str, name: str, **_: str) -> None:
@@ -548,7 +550,7 @@ class Reader(Trials):
         self.put(name, rolls.point + rolls.along * away)
 
     @says(
-        "from ⟨o⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° to the x axis, where wheel ⟨k:number⟩ has come "
+        "from ⟨o⟩ lay off ⟨s⟩⟨t⟩ at ⟨angle:number⟩° to the x axis, where wheel ⟨k:link⟩ has come "
         "by rolling: ⟨name⟩"
     )
     def rolled_to(self, o: str, s: str, t: str, angle: str, k: str, name: str) -> None:
@@ -562,12 +564,12 @@ class Reader(Trials):
     def apart(self, o: str, p: str) -> float:
         """The distance of the centres of two wheels that touch: R + r, in a ring R − r."""
         (fixed, r), (rolling, own) = (self.wheel_about(point) for point in (o, p))
-        rings = [kind.startswith(("ring", "inner")) for kind in (fixed, rolling)]
+        rings = [kind.startswith(("ring", "internal")) for kind in (fixed, rolling)]
         return abs(r - own) if any(rings) else r + own
 
     @says(
         r"by the law [sψ][^=]* = [^;]*; from ⟨p⟩ lay off ⟨s⟩⟨t⟩ = ⟨size:number⟩ mm "
-        r"at ⟨angle:number⟩° to the x axis: ⟨name⟩, the centre of curvature of cam ⟨g:number⟩"
+        r"at ⟨angle:number⟩° to the x axis: ⟨name⟩, the centre of curvature of cam ⟨g:link⟩"
     )
     def centre_of_curvature(self, p: str, size: str, angle: str, name: str, **_: str) -> None:
         along = cmath.rect(number(size), math.radians(number(angle)))
@@ -575,8 +577,8 @@ class Reader(Trials):
 
     @says(
         r"by the law s[^;]*; from ⟨p⟩ lay off ⟨size:number⟩ mm (?P<way>[a-z ]+), along guide "
-        r"⟨k:number⟩, then ⟨aside:number⟩ mm (?P<side>[a-z ]+), square to it: ⟨name⟩, "
-        r"the centre of curvature of cam ⟨g:number⟩"
+        r"⟨k:link⟩, then ⟨aside:number⟩ mm (?P<side>[a-z ]+), square to it: ⟨name⟩, "
+        r"the centre of curvature of cam ⟨g:link⟩"
     )
     def centre_under_a_face(
         self, p: str, size: str, way: str, k: str, aside: str, side: str, name: str, **_: str
@@ -593,19 +595,21 @@ class Reader(Trials):
     def wheels_touch(self, g: str, k: str, name: str, r: str, o: str) -> None:
         away, centres = 1, {}
         for item in self.items:
-            form = rf"(inner )?(?:gear|wheel|ring) ({WHEEL}|of the frame): centre ({NAME})"
+            form = rf"(internal )?(?:gear|wheel|ring) ({WHEEL}|of the frame): centre ({NAME})"
             if match := re.match(form, item):
                 link = match[2].replace("of the frame", "0")
                 centres[link] = match[3]
                 if match[1] and link in (g, k) and match[3] != o:
                     away = -1  # seen from the wheel within, beyond its own centre
-        other = next(c for link, c in centres.items() if c != o and link in (g, k))
+        other = next((c for link, c in centres.items() if c != o and link in (g, k)), None)
+        if other is None:
+            raise DefectError(f"no centre is told of wheel {g} or {k} but {o}")
         along = away * (self.at(other) - self.at(o))
         self.put(name, self.at(o) + along / abs(along) * number(r))
 
     @says(
         r"the strands of the (?P<kind>open|crossed) belt(?:, produced,)? meet the line of centres "
-        r"⟨p⟩⟨q⟩ in ⟨name⟩: there links ⟨g:number⟩ and ⟨k:number⟩ have one velocity"
+        r"⟨p⟩⟨q⟩ in ⟨name⟩: there links ⟨g:link⟩ and ⟨k:link⟩ have one velocity"
     )
     def strands_meet(self, kind: str, p: str, q: str, name: str, g: str, k: str) -> None:
         first, second = (self.belted_radius(name, link) for link in (g, k))
@@ -649,7 +653,7 @@ class Reader(Trials):
         self.loci.append(Line.of(self.at(s), bar * 1j))
 
     @says(
-        "through ⟨s⟩ the parallel to (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩)(?:, the "
+        "through ⟨s⟩ the parallel to (?P<of>(?:guide|track) ⟨k:link⟩|⟨p⟩⟨q⟩)(?:, the "
         "normal of the contact|, the line of centres)?"
     )
     def parallel_to(self, s: str, of: str, **_: str) -> None:
@@ -665,7 +669,7 @@ class Reader(Trials):
             self.put(name, self.at(point))
 
     @says(
-        "⟨name⟩, the centre of links ⟨g:number⟩ and ⟨k:number⟩, is where the strands of their belt "
+        "⟨name⟩, the centre of links ⟨g:link⟩ and ⟨k:link⟩, is where the strands of their belt "
         "meet the line of centres"
     )
     def centre_on_belt(self, name: str, g: str, k: str) -> None:
@@ -686,7 +690,7 @@ class Reader(Trials):
         self.meet(name, None)
 
     @says(
-        "they meet at ⟨name⟩(?:, the instantaneous centre of link ⟨k:number⟩"
+        "they meet at ⟨name⟩(?:, the instantaneous centre of link ⟨k:link⟩"
         "|, the centre of links [^;]*)?"
     )
     def meet(self, name: str, k: str | None) -> None:
@@ -728,12 +732,12 @@ class Reader(Trials):
         self.put(name, self.at(p[0].lower() + primes + p[1:]))
 
     @says(
-        "rack ⟨k:number⟩ has moved with the rim, from where it touched the wheel at the start, by "
+        "rack ⟨k:link⟩ has moved with the rim, from where it touched the wheel at the start, by "
         "the arc that the wheel has turned through since, ⟨arc:number⟩ mm: ⟨name⟩"
     )
     def rack(self, k: str, arc: str, name: str) -> None:
-        item = self.told_of(rf"gear \d+ meshes in {NAME} with a rack along the line of link {k}")
-        gear = re.match(r"gear (\d+)", item)[1]
+        item = self.told_of(rf"gear {LINK} meshes in {NAME} with a rack along the line of link {k}")
+        gear = re.match(rf"gear ({LINK})", item)[1]
         start = re.search(
             rf"touching it at {re.escape(name)} when {NAME}{NAME} is at ({NUMBER}°)", item
         )
@@ -768,7 +772,7 @@ class Reader(Trials):
         self.put(name, self.its_end() + self.driven_way(of, kind, way) * number(drawn))
 
     @says(
-        "⟨name⟩, the instantaneous centre of link ⟨k:number⟩, is (?:its fixed pin )?⟨p⟩(?:, "
+        "⟨name⟩, the instantaneous centre of link ⟨k:link⟩, is (?:its fixed pin )?⟨p⟩(?:, "
         "whose velocity is zero)?"
     )
     def centre_still(self, name: str, k: str, p: str) -> None:
@@ -823,13 +827,13 @@ class Reader(Trials):
         self.loci.append(Line.of(start, (self.at(q) - self.at(p)) * 1j))
 
     @says(
-        "through (?:its end|⟨s⟩) ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of "
+        "through (?:its end|⟨s⟩) ∥ (?P<of>(?:guide|track) ⟨k:link⟩|⟨p⟩⟨q⟩), the direction of "
         "⟨a:vector⟩"
     )
     def parallel_to_end(self, s: str | None, of: str, **_: str) -> None:
         self.loci.append(Line.of(self.at(s) if s else self.its_end(), self.direction(of)))
 
-    @says("from ⟨s⟩ ⟨a:vector⟩ leads to ⟨name⟩, along (?P<of>guide ⟨k:number⟩)")
+    @says("from ⟨s⟩ ⟨a:vector⟩ leads to ⟨name⟩, along (?P<of>guide ⟨k:link⟩)")
     def leads_along(self, s: str, name: str, of: str, **_: str) -> None:
         """A check: both are known."""
         way, along = self.at(name) - self.at(s), self.direction(of)
@@ -838,7 +842,7 @@ class Reader(Trials):
 
     @says(
         "the velocities of ⟨p⟩ and ⟨q⟩ are parallel: set at these points, the line through their "
-        "tips meets ⟨m⟩⟨n⟩ in ⟨name⟩, the instantaneous centre of link ⟨k:number⟩"
+        "tips meets ⟨m⟩⟨n⟩ in ⟨name⟩, the instantaneous centre of link ⟨k:link⟩"
     )
     def centre_of_parallels(self, p: str, q: str, name: str, **_: str) -> None:
         one, two = (self.set_off(f"v_{{{point}}}") for point in (p, q))
@@ -885,9 +889,7 @@ class Reader(Trials):
     def where_normals_meet(self, name: str) -> None:
         self.one_of(name, crossings(*self.square))
 
-    @says(
-        "(?:and )?the circle with ⟨i⟩⟨w⟩ as diameter is the inflection circle of link ⟨k:number⟩.*"
-    )
+    @says("(?:and )?the circle with ⟨i⟩⟨w⟩ as diameter is the inflection circle of link ⟨k:link⟩.*")
     def inflection_circle(self, w: str, **_: str) -> None:
         self.at(w)
 
@@ -908,9 +910,7 @@ class Reader(Trials):
         if foot:
             self.put(foot, self.end)
 
-    @says(
-        "through its tail ∥ (?P<of>(?:guide|track) ⟨k:number⟩|⟨p⟩⟨q⟩), the direction of ⟨a:vector⟩"
-    )
+    @says("through its tail ∥ (?P<of>(?:guide|track) ⟨k:link⟩|⟨p⟩⟨q⟩), the direction of ⟨a:vector⟩")
     def parallel_to_tail(self, of: str, **_: str) -> None:
         if self.tail is None:
             raise DefectError("nothing was set whose tail is meant")
@@ -1030,7 +1030,7 @@ class Reader(Trials):
         raise DefectError(f"no rule reads: {words}")
 
     @says(
-        r"acceleration pole ⟨name⟩ of link ⟨k:number⟩: triangle ⟨j⟩⟨p⟩⟨q⟩ similar to "
+        r"acceleration pole ⟨name⟩ of link ⟨k:link⟩: triangle ⟨j⟩⟨p⟩⟨q⟩ similar to "
         r"⟨o⟩⟨a⟩⟨b⟩, same sense \(.*?\)"
     )
     def acceleration_pole(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from tests.documents.printed_sheet import NAME, NUMBER, WHEEL, number
+from tests.documents.printed_sheet import LINK, NAME, NUMBER, WHEEL, number
 from tests.documents.ruler_and_compass import DefectError
 
 VECTOR = r"[av]_\{[^}]*\}(?:\^\{[^}]*\})?"
@@ -17,6 +17,7 @@ RULES: list[tuple[re.Pattern[str], Rule]] = []
 KINDS = {
     "point": NAME,
     "number": NUMBER,
+    "link": LINK,
     "wheel": WHEEL,
     "vector": VECTOR,
     "set": rf"(?:{NUMBER}·)?{VECTOR}(?:/{NUMBER})?",

@@ -67,13 +67,13 @@ def test_every_length_of_the_calculation_is_known_or_measured_before_and_once(bo
         drawn_before |= section == "lengths"
         for relation in found:
             bars = [ends_on(first, *ends) for ends in relation.over]
-            if section in ("radii", "lengths"):
+            names = {bar(p, q) for p, q in relation.over}
+            if section in ("radii", "lengths") or (section == "cams" and relation.left in names):
                 assert len(set(bars)) == 1 and bars[0] not in known, relation
                 known.add(bars[0])
             elif drawn_before:
                 assert set(bars) <= known, relation
                 last = BAR.search(relation.symbols)
-                names = {bar(p, q) for p, q in relation.over}
                 assert not last or last[1] in names or last[1] in said, relation
     assert drawn_before
 

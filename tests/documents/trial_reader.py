@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable
 
 from tests.documents.hand import Hand
-from tests.documents.printed_sheet import NAME, NUMBER, canonical, number
+from tests.documents.printed_sheet import LINK, NAME, NUMBER, WHEEL, canonical, number
 from tests.documents.reader_rules import VECTOR, says
 from tests.documents.ruler_and_compass import DefectError, Line, cross, dot
 
@@ -36,15 +36,15 @@ class Trials(Hand):
     # a link that is moved in steps
 
     @says(
-        "cut pin ⟨pin⟩: move link ⟨k:number⟩ in steps, draw links .*? each time and mark the locus "
+        "cut pin ⟨pin⟩: move link ⟨k:link⟩ in steps, draw links .*? each time and mark the locus "
         "of ⟨p2⟩; where it cuts the arc of radius ⟨p⟩⟨q⟩ about ⟨c⟩ they close: closure ⟨n:number⟩"
     )
     def cut_loop(self, pin: str, k: str, p: str, q: str, c: str, n: str, **_: str) -> None:
         self.close(k, n, lambda hand: abs(hand.at(pin) - hand.at(c)) - hand.length(p, q))
 
     @says(
-        "take ⟨q⟩ off guide ⟨g:number⟩: move link ⟨k:number⟩ in steps, draw links .*? each time "
-        "and mark the locus of ⟨q2⟩; where it cuts guide ⟨g2:number⟩ they close: closure ⟨n:number⟩"
+        "take ⟨q⟩ off guide ⟨g:link⟩: move link ⟨k:link⟩ in steps, draw links .*? each time "
+        "and mark the locus of ⟨q2⟩; where it cuts guide ⟨g2:link⟩ they close: closure ⟨n:number⟩"
     )
     def take_off(self, q: str, g: str, k: str, n: str, **_: str) -> None:
         def off(hand: Trials) -> float:
@@ -54,7 +54,7 @@ class Trials(Hand):
         self.close(k, n, off)
 
     @says(
-        "take ⟨p⟩⟨q⟩ away: move link ⟨k:number⟩ in steps, draw links .*? each time and mark the "
+        "take ⟨p⟩⟨q⟩ away: move link ⟨k:link⟩ in steps, draw links .*? each time and mark the "
         "loci of ⟨p2⟩ and ⟨q2⟩; where these are as far apart as the bar is long they close: "
         "closure ⟨n:number⟩"
     )
@@ -62,7 +62,7 @@ class Trials(Hand):
         self.close(k, n, lambda hand: abs(hand.at(q) - hand.at(p)) - hand.length(p, q))
 
     @says(
-        r"leave (?P<s>s_\{[^}]*\}) free: move link ⟨k:number⟩ in steps and draw links .*? each "
+        r"leave (?P<s>s_\{[^}]*\}) free: move link ⟨k:link⟩ in steps and draw links .*? each "
         r"time; where s_\{[^}]*\} takes its given value they close: closure ⟨n:number⟩"
     )
     def leave_free(self, s: str, k: str, n: str) -> None:
@@ -135,11 +135,11 @@ class Trials(Hand):
         along = ray.along if (ray.along.real > 0) == (way == "to the right") else -ray.along
         self.put(name, foot + along * number(far))
         for item in self.items:
-            if wheel := re.match(rf"wheel (\d+): centre {re.escape(name)},", item):
+            if wheel := re.match(rf"wheel ({WHEEL}): centre {re.escape(name)},", item):
                 _, radius = self.wheel_about(name)
                 self.rolled[wheel[1]] = number(far) / radius
 
-    @says("through ⟨p⟩ draw guide ⟨k:number⟩ at (?P<angle>⟨n:number⟩°) to the x axis, as was found")
+    @says("through ⟨p⟩ draw guide ⟨k:link⟩ at (?P<angle>⟨n:number⟩°) to the x axis, as was found")
     def guide_found(self, p: str, k: str, n: str, **_: str) -> None:
         along = cmath.rect(1, self.turned(math.radians(number(n))))
         self.lies[k] = along
@@ -235,7 +235,8 @@ class Trials(Hand):
         if re.fullmatch(NAME, words):
             return complex(self.at(point) - self.at(words))
         match = re.fullmatch(
-            rf"the (perpendicular|parallel) to (?:({NAME})({NAME})|(guide \d+)) through (.*)", words
+            rf"the (perpendicular|parallel) to (?:({NAME})({NAME})|(guide {LINK})) through (.*)",
+            words,
         )
         if match is None:
             raise DefectError(f"no rule reads: {words}")
@@ -256,7 +257,7 @@ class Trials(Hand):
         return complex(cross(along / abs(along), self.at(point) - through))
 
     @says(
-        "measure along guide ⟨k:number⟩, in its positive sense: (?:⟨x⟩⟨y⟩|⟨a:vector⟩) = ⟨m:number⟩ "
+        "measure along guide ⟨k:link⟩, in its positive sense: (?:⟨x⟩⟨y⟩|⟨a:vector⟩) = ⟨m:number⟩ "
         "mm in the first trial plan, (?:⟨x2⟩⟨y2⟩|⟨a2:vector⟩) = ⟨n:number⟩ mm in the second; "
         "⟨given:number⟩ mm are given, so that the gaps of the trials are ⟨g:number⟩ mm and "
         "⟨h:number⟩ mm"
