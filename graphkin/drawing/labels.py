@@ -142,7 +142,7 @@ class Label(Struct, frozen=True):
             width, height = self.size()
             left, right = spot.x - width / 2, spot.x + width / 2
             top, low = spot.y - height / 2, spot.y + height / 2
-        return left - CLEAR, top - CLEAR, right + CLEAR, low + CLEAR
+        return left - AIR, top - AIR, right + AIR, low + AIR
 
     @property
     def point(self) -> XY:
@@ -179,6 +179,8 @@ STRONG = (*VECTORS, "link", "outline", "guide", "guide-bar")
 BARS, DIRECTIONS = ("link",), ("construction", OWN_LINES)
 """Classes of the bars of a mechanism, and of the construction lines of a plan."""
 KINDS = {cls: kinds for kinds in (BARS, VECTORS, DIRECTIONS) for cls in kinds}
+AIR = 0.15
+"""Distance in mm that a leader keeps from other labels: half of a thin line and a little."""
 MARGIN = 0.3
 """How much nearer a neighbour may be, in mm, before a label gets a leader."""
 SHARES = (0.5, 0.3, 0.7, 0.15, 0.85)

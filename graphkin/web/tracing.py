@@ -325,6 +325,9 @@ class Tracing(Struct, frozen=True, dict=True):
             first, turns = TURN * floor(self.driven.start / TURN), self.path.turns
             back = 1 <= turns <= MOST_TURNS
             reach = Reach(first, first + TURN * (turns if back else 1), back)
+        elif reach is not None and self.driven.what != "time":
+            low, high = (end / self.driven.metres for end in self.path.spans[0])
+            reach = Reach(max(reach.low, low), min(reach.high, high), False)
         return None if reach is None else (reach, TrackedBranch())
 
 

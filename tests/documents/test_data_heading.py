@@ -169,4 +169,5 @@ def test_points_of_plates_are_columns_and_their_axes_stand_beside():
     assert values[symbol("B_2")] == "(150, 0) mm"
     assert values[symbol("B_3")] == "(110, 0) mm"
     said = [datum.words for datum in found]
-    assert f"{symbol('A')}, {symbol('B_2')}, {symbol('C')}: in the axes of link 2" in said
+    own = f"{symbol('B_2')} ≡ {symbol('B')}"
+    assert f"{symbol('A')}, {own}, {symbol('C')}: in the axes of link 2" in said

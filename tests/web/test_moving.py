@@ -264,9 +264,11 @@ def test_marks_follow_as_python_draws_them(page, name):
         assert not list(compared(name, x, marks_of(name, here)))
 
 
-@pytest.mark.parametrize("name", ["stephenson-1", "mobility-parallel-cranks", "two-loops"])
-def test_a_page_goes_as_a_cycle_does_through_change_points(page, name):
-    """As far, and with every pin where a row of the cycle has it."""
+@pytest.mark.parametrize(
+    "name", ["stephenson-1", "mobility-parallel-cranks", "two-loops", "cam-tangent"]
+)
+def test_a_page_goes_as_a_cycle_does_and_as_far(page, name):
+    """Through change points, and no farther, with every pin where a row of the cycle has it."""
     sheets, found = page_of(name)
     rows = cycle(named(name), steps=36)
     low, high = rows.path.spans[0]
