@@ -8,21 +8,30 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from math import degrees
 
+import numpy as np
 from msgspec import Struct
 
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.vector_ends import OWN, RINGS, SHORTEST, heads_at, is_marked
 from graphkin.text import Words
 
-DRAWN, LEAST = 0.9, 0.7
+DRAWN, LEAST, LONG = 0.9, 0.7, 20.0
 """The drawn share of all vectors of a plan together, and of each of them, that shows a cause.
 
-A plan of which the share LEAST is drawn where the key has it has none.
+Letters may hide most of a vector shorter than LONG, in mm. A plan of which the share LEAST is drawn
+where the key has it has no cause.
 """
 ENDED = 0.75
-"""The share of the vectors that must have a head or a marked point at their tip."""
+"""The share of the vectors that must end at their tip."""
+CORNER = 0.3
+"""The least sine of the angle between lines of the plan that show where they meet."""
+NEAR, WIDE = 0.6, 1.5
+"""How far beside its line a vector is drawn, and how far beside it one is looked for, in mm."""
+FITTED = 2
+"""How many times a similarity is fitted to the lines that are drawn."""
 MOVED = 3.0
 """A cause moves a point of the plan by at least this many mm."""
 FEWEST, SEEN = 3, 0.5
@@ -108,29 +117,84 @@ def similarity_of(
     key has it has no cause.
     """
     long = [shaft for shaft in shafts if abs(shaft[1] - shaft[0]) > SHORTEST]
-    if not long or sum(ink.cover(*shaft, 0.6) for shaft in long) > LEAST * len(long):
+    if not long or sum(ink.cover(*shaft, NEAR) for shaft in long) > LEAST * len(long):
         return None
     tips = [tip for tail, tip in long if abs(tail - pole) < 1e-6]
-    best, most = None, DRAWN
+    best, most = None, 0.0
     for each in similarities(pole, tips, places):
-        drawn = [(each(tail), each(tip)) for tail, tip in long]
-        drawn = [(tail, tip) for tail, tip in drawn if abs(tip - tail) > SHORTEST]
-        moved = max((abs(each(tip) - tip) for _, tip in long), default=0.0)
-        if len(drawn) < max(FEWEST, SEEN * len(long)) or moved < MOVED:
-            continue
-        total = 0.0
-        for tail, tip in drawn:
-            cover = ink.cover(tail, tip, 0.6)
-            if cover < LEAST:
-                break
-            total += cover / len(drawn)
-        else:
-            if total > most and is_ended(ink, drawn):
-                best, most = each, total
-    return best
+        share = drawn_share(ink, each, long, WIDE)
+        if share > max(most, DRAWN):
+            best, most = each, share
+    for _ in range(FITTED if best is not None else 0):
+        best = fitted(ink, best, long)
+    if best is None or drawn_share(ink, best, long, NEAR) < DRAWN:
+        return None
+    moved = max(abs(best(tip) - tip) for _, tip in long)
+    return best if moved >= MOVED and is_ended(ink, moved_by(best, long)) else None
+
+
+def moved_by(similarity: Similarity, shafts: Sequence[Shaft]) -> list[Shaft]:
+    """The vectors that are long enough to be seen where a similarity puts them."""
+    drawn = [(similarity(tail), similarity(tip)) for tail, tip in shafts]
+    return [(tail, tip) for tail, tip in drawn if abs(tip - tail) > SHORTEST]
+
+
+def drawn_share(
+    ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft], beside: float
+) -> float:
+    """The drawn share of all vectors where a similarity puts them; 0 where a long one is not."""
+    drawn = moved_by(similarity, shafts)
+    if len(drawn) < max(FEWEST, SEEN * len(shafts)):
+        return 0.0
+    total = 0.0
+    for tail, tip in drawn:
+        cover, long = ink.cover(tail, tip, beside), abs(tip - tail)
+        if cover < LEAST and long > LONG:
+            return 0.0
+        total += cover * long
+    return total / sum(abs(tip - tail) for tail, tip in drawn)
+
+
+def fitted(ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft]) -> Similarity:
+    """A similarity with the size and turn that suit the drawn lines best, by least squares.
+
+    A point that was read 0.5 mm off at the end of a short vector gives another scale.
+    """
+    pole, rows, offs = similarity.pole, [], []
+    for tail, tip in shafts:
+        ends = similarity(tail), similarity(tip)
+        lines = ink.lines(*ends, WIDE, WIDE, most=1) if abs(ends[1] - ends[0]) > SHORTEST else []
+        for line in lines:
+            for end in ends:
+                way = (end - pole) / similarity.size * line.way.conjugate()
+                rows.append((way.imag, way.real))
+                offs.append(line.off(pole))
+    if len(rows) < 2 * FEWEST:
+        return similarity
+    real, imag = np.linalg.lstsq(np.array(rows), -np.array(offs), rcond=None)[0]
+    return Similarity(pole, complex(real, imag), similarity.mirrored)
 
 
 def is_ended(ink: DrawnInk, shafts: Sequence[Shaft]) -> bool:
-    """Whether heads or marks are at the tips of most vectors."""
-    ended = [heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS) for tail, tip in shafts]
+    """Whether most vectors end at their tips: by a head, a mark, or where others meet them."""
+    ended = [
+        heads_at(ink, tail, tip) >= OWN
+        or is_marked(ink, tip, RINGS)
+        or meets_others(shafts, tail, tip)
+        for tail, tip in shafts
+    ]
     return sum(ended) >= ENDED * len(ended)
+
+
+def meets_others(shafts: Sequence[Shaft], tail: complex, tip: complex) -> bool:
+    """Whether other vectors of the plan begin or end at a vector's tip, along two other lines."""
+    ways = [
+        (end - start) / abs(end - start)
+        for start, end in shafts
+        if min(abs(start - tip), abs(end - tip)) < 1e-3
+    ]
+    ways.append((tip - tail) / abs(tip - tail))
+    return sum(
+        abs((one * other.conjugate()).imag) > CORNER
+        for one, other in combinations(ways, 2)
+    ) >= 3  # fmt: skip

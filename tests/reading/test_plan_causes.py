@@ -103,3 +103,38 @@ def test_dashes_cover_half_of_a_line_and_end_on_it() -> None:
     pieces = list(dashes(line))
     assert pieces[-1][3] == line[3]
     assert sum(each[3] - each[1] for each in pieces) == pytest.approx(5 * DASH)
+
+
+SHORT = POLE + 6 + 18j
+"""The tip of a vector of the key that is 19 mm long."""
+
+
+def test_the_scale_is_that_of_the_lines_and_not_of_one_point_that_was_read_beside() -> None:
+    """A point 0.5 mm off at the end of a vector of 9.5 mm gave 0.52 times the size."""
+    half = CASES["halved"]
+    shafts = [(POLE, SHORT), *SHAFTS]
+    ink = ink_of(*strokes(half), *vector(POLE, half(SHORT)))
+    beside = half(SHORT) + 0.5 * (SHORT - POLE) / abs(SHORT - POLE)
+    similarity = similarity_of(ink, shafts, POLE, [beside])
+    assert similarity is not None
+    assert similarity.cause.factor == pytest.approx(0.5, abs=0.004)
+
+
+def test_a_short_vector_under_letters_leaves_a_plan_its_cause() -> None:
+    """Of 14 mm on paper no more than the half is seen; a long vector must be drawn."""
+    half, tip = CASES["halved"], TIPS[0] + 28j
+    shafts = [*SHAFTS, (TIPS[0], tip)]
+    part = (half(TIPS[0]), half(TIPS[0]) + 0.55 * (half(tip) - half(TIPS[0])))
+    ink = ink_of(*strokes(half), part)
+    assert similarity_of(ink, shafts, POLE, [half(TIPS[0])]) is not None
+    assert similarity_of(ink, [*SHAFTS, (TIPS[0], tip + 40j)], POLE, [half(TIPS[0])]) is None
+
+
+def test_vectors_that_meet_others_end_there_without_heads() -> None:
+    """At half the size the heads of many vectors at one point cover each other."""
+    half, mid = CASES["halved"], TIPS[1]
+    bare = [(half(tail), half(tip)) for tail, tip in SHAFTS]
+    marked = vector(half(POLE), half(TIPS[0]))[1:] + vector(half(POLE), half(TIPS[2]))[1:]
+    similarity = similarity_of(ink_of(*bare, *marked), SHAFTS, POLE, [half(mid)])
+    assert similarity is not None
+    assert similarity_of(ink_of(*bare), SHAFTS, POLE, [half(mid)]) is None
