@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from cmath import phase
 from collections.abc import Iterator, Sequence
-from itertools import combinations
 from math import degrees
 
 import numpy as np
@@ -24,10 +23,11 @@ DRAWN, LEAST, LONG = 0.9, 0.7, 20.0
 Letters may hide most of a vector shorter than LONG, in mm. A plan of which the share LEAST is drawn
 where the key has it has no cause.
 """
-ENDED = 0.75
-"""The share of the vectors that must end at their tip."""
-CORNER = 0.3
-"""The least sine of the angle between lines of the plan that show where they meet."""
+ENDED = 0.4
+"""The share of the vectors whose head or marked point must be seen at their tip.
+
+Heads of several vectors to one point cover each other, and more so in a plan at half its size.
+"""
 NEAR, WIDE = 0.6, 1.5
 """How far beside its line a vector is drawn, and how far beside it one is looked for, in mm."""
 FITTED = 2
@@ -176,25 +176,6 @@ def fitted(ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft]) -> Si
 
 
 def is_ended(ink: DrawnInk, shafts: Sequence[Shaft]) -> bool:
-    """Whether most vectors end at their tips: by a head, a mark, or where others meet them."""
-    ended = [
-        heads_at(ink, tail, tip) >= OWN
-        or is_marked(ink, tip, RINGS)
-        or meets_others(shafts, tail, tip)
-        for tail, tip in shafts
-    ]
+    """Whether heads or marks are at the tips of enough vectors."""
+    ended = [heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS) for tail, tip in shafts]
     return sum(ended) >= ENDED * len(ended)
-
-
-def meets_others(shafts: Sequence[Shaft], tail: complex, tip: complex) -> bool:
-    """Whether other vectors of the plan begin or end at a vector's tip, along two other lines."""
-    ways = [
-        (end - start) / abs(end - start)
-        for start, end in shafts
-        if min(abs(start - tip), abs(end - tip)) < 1e-3
-    ]
-    ways.append((tip - tail) / abs(tip - tail))
-    return sum(
-        abs((one * other.conjugate()).imag) > CORNER
-        for one, other in combinations(ways, 2)
-    ) >= 3  # fmt: skip
