@@ -96,13 +96,20 @@ Shaft = tuple[complex, complex]
 def similarities(
     pole: complex, tips: Sequence[complex], places: Sequence[complex]
 ) -> Iterator[Similarity]:
-    """The similarities that take a tip of the key to one of some places."""
+    """The similarities that take a tip of the key to one of some places, or only towards it.
+
+    A line often runs on beyond its vector, so that its direction is tried at the key's size too.
+    """
     for tip in tips:
         way = tip - pole
         for place in places:
             if abs(way) > SHORTEST and abs(place - pole) > SHORTEST:
-                yield Similarity(pole, (place - pole) / way, False)
-                yield Similarity(pole, (place - pole) / way.conjugate(), True)
+                for size in (
+                    (place - pole) / way,
+                    (place - pole) / abs(place - pole) * abs(way) / way,
+                ):
+                    yield Similarity(pole, size, False)
+                    yield Similarity(pole, size * way / way.conjugate(), True)
 
 
 def similarity_of(

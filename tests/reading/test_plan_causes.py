@@ -137,3 +137,14 @@ def test_some_heads_are_enough_where_all_lines_of_a_plan_are_drawn() -> None:
     headed = [stroke for tip in TIPS[::2] for stroke in vector(half(POLE), half(tip))]
     assert similarity_of(ink_of(*bare, *headed), SHAFTS, POLE, [half(TIPS[0])]) is not None
     assert similarity_of(ink_of(*bare), SHAFTS, POLE, [half(TIPS[0])]) is None
+
+
+@pytest.mark.parametrize("name", ["spun", "mirrored"])
+def test_the_direction_of_a_line_that_runs_on_beyond_its_vector_is_enough(name: str) -> None:
+    """Of a plan that is turned or mirrored often no point is read: all are far from the key."""
+    drawn = CASES[name]
+    far = [POLE + 1.3 * (drawn(tip) - POLE) for tip in TIPS]
+    ink = ink_of(*strokes(drawn), *((POLE, place) for place in far))
+    similarity = similarity_of(ink, SHAFTS, POLE, far)
+    assert similarity is not None
+    assert similarity.size == pytest.approx(drawn.size, abs=0.01)
