@@ -29,7 +29,10 @@ ENDED = 0.4
 Heads of several vectors to one point cover each other, and more so in a plan at half its size.
 """
 NEAR, WIDE = 0.6, 1.5
-"""How far beside its line a vector is drawn, and how far beside it one is looked for, in mm."""
+"""How far beside a straight line a vector is drawn, and that line beside its place, in mm.
+
+A careful hand is a millimetre off at the far ends of a large plan.
+"""
 FITTED = 2
 """How many times a similarity is fitted to the lines that are drawn."""
 MOVED = 3.0
@@ -129,15 +132,22 @@ def similarity_of(
     tips = [tip for tail, tip in long if abs(tail - pole) < 1e-6]
     best, most = None, 0.0
     for each in similarities(pole, tips, places):
-        share = drawn_share(ink, each, long, WIDE)
+        share = drawn_share(ink, moved_by(each, long), len(long))
         if share > max(most, DRAWN):
             best, most = each, share
     for _ in range(FITTED if best is not None else 0):
         best = fitted(ink, best, long)
-    if best is None or drawn_share(ink, best, long, NEAR) < DRAWN:
+    if best is None or max(abs(best(tip) - tip) for _, tip in long) < MOVED:
         return None
-    moved = max(abs(best(tip) - tip) for _, tip in long)
-    return best if moved >= MOVED and is_ended(ink, moved_by(best, long)) else None
+    own = [own_shaft(ink, shaft) for shaft in moved_by(best, long)]
+    is_seen = drawn_share(ink, own, len(long), NEAR) >= DRAWN and is_ended(ink, own)
+    return best if is_seen else None
+
+
+def own_shaft(ink: DrawnInk, shaft: Shaft) -> Shaft:
+    """A vector along the straight line that is drawn near it, or where it is without one."""
+    line = next(iter(ink.lines(*shaft, WIDE, WIDE, most=1)), None)
+    return shaft if line is None else (line.start, line.end)
 
 
 def moved_by(similarity: Similarity, shafts: Sequence[Shaft]) -> list[Shaft]:
@@ -146,20 +156,17 @@ def moved_by(similarity: Similarity, shafts: Sequence[Shaft]) -> list[Shaft]:
     return [(tail, tip) for tail, tip in drawn if abs(tip - tail) > SHORTEST]
 
 
-def drawn_share(
-    ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft], beside: float
-) -> float:
-    """The drawn share of all vectors where a similarity puts them; 0 where a long one is not."""
-    drawn = moved_by(similarity, shafts)
-    if len(drawn) < max(FEWEST, SEEN * len(shafts)):
+def drawn_share(ink: DrawnInk, shafts: Sequence[Shaft], count: int, beside: float = WIDE) -> float:
+    """The drawn share of vectors of a plan of ``count``; 0 where a long one is not drawn."""
+    if len(shafts) < max(FEWEST, SEEN * count):
         return 0.0
     total = 0.0
-    for tail, tip in drawn:
+    for tail, tip in shafts:
         cover, long = ink.cover(tail, tip, beside), abs(tip - tail)
         if cover < LEAST and long > LONG:
             return 0.0
         total += cover * long
-    return total / sum(abs(tip - tail) for tail, tip in drawn)
+    return total / sum(abs(tip - tail) for tail, tip in shafts)
 
 
 def fitted(ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft]) -> Similarity:
