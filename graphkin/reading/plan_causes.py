@@ -146,7 +146,8 @@ def similarity_of(
 
 def own_shaft(ink: DrawnInk, shaft: Shaft) -> Shaft:
     """A vector along the straight line that is drawn near it, or where it is without one."""
-    line = next(iter(ink.lines(*shaft, WIDE, WIDE, most=1)), None)
+    lines = ink.lines(*shaft, WIDE, WIDE)
+    line = max(lines, key=lambda each: each.cover, default=None)
     return shaft if line is None else (line.start, line.end)
 
 
