@@ -139,9 +139,13 @@ def similarity_of(
         best = fitted(ink, best, long)
     if best is None or max(abs(best(tip) - tip) for _, tip in long) < MOVED:
         return None
-    own = [own_shaft(ink, shaft) for shaft in moved_by(best, long)]
-    is_seen = drawn_share(ink, own, len(long), NEAR) >= DRAWN and is_ended(ink, own)
-    return best if is_seen else None
+    there = moved_by(best, long)
+    own = [own_shaft(ink, shaft) for shaft in there]
+    ended = [
+        is_ended(ink, *one) or is_ended(ink, *other) for one, other in zip(there, own, strict=True)
+    ]
+    drawn = drawn_share(ink, own, len(long), NEAR) >= DRAWN
+    return best if drawn and sum(ended) >= ENDED * len(ended) else None
 
 
 def own_shaft(ink: DrawnInk, shaft: Shaft) -> Shaft:
@@ -190,7 +194,6 @@ def fitted(ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft]) -> Si
     return Similarity(pole, complex(real, imag), similarity.mirrored)
 
 
-def is_ended(ink: DrawnInk, shafts: Sequence[Shaft]) -> bool:
-    """Whether heads or marks are at the tips of enough vectors."""
-    ended = [heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS) for tail, tip in shafts]
-    return sum(ended) >= ENDED * len(ended)
+def is_ended(ink: DrawnInk, tail: complex, tip: complex) -> bool:
+    """Whether a head or a mark is at the tip of a vector."""
+    return heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS)

@@ -153,7 +153,9 @@ def test_the_direction_of_a_line_that_runs_on_beyond_its_vector_is_enough(name: 
 def test_a_turned_plan_need_not_be_exact() -> None:
     """A careful hand is a millimetre off at the far ends of a plan."""
     turned = CASES["spun"]
-    off = dict(zip(TIPS, (0.3 + 1.1j, -1.1 - 0.5j, 1.0 - 0.7j), strict=True))
+    off = {
+        tip: side * 1j * (tip - POLE) / 60 for tip, side in zip(TIPS, (1.1, -1.4, 1.1), strict=True)
+    }
     drawn = [(turned(a) + off.get(a, 0), turned(b) + off.get(b, 0)) for a, b in SHAFTS]
     ink = ink_of(*(stroke for shaft in drawn for stroke in vector(*shaft)))
     similarity = similarity_of(ink, SHAFTS, POLE, [b for _, b in drawn[:3]])
