@@ -17,10 +17,10 @@ from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.vector_ends import OWN, RINGS, SHORTEST, heads_at, is_marked
 from graphkin.text import Words
 
-DRAWN, LEAST, LONG = 0.9, 0.7, 20.0
+DRAWN, LEAST, LONG, KEPT = 0.9, 0.6, 20.0, 0.7
 """The drawn share of all vectors of a plan together, and of each of them, that shows a cause.
 
-Letters may hide most of a vector shorter than LONG, in mm. A plan of which the share LEAST is drawn
+Letters may hide most of a vector shorter than LONG, in mm. A plan of which the share KEPT is drawn
 where the key has it has no cause.
 """
 ENDED = 0.4
@@ -127,7 +127,7 @@ def similarity_of(
     key has it has no cause.
     """
     long = [shaft for shaft in shafts if abs(shaft[1] - shaft[0]) > SHORTEST]
-    if not long or sum(ink.cover(*shaft, NEAR) for shaft in long) > LEAST * len(long):
+    if not long or sum(ink.cover(*shaft, NEAR) for shaft in long) > KEPT * len(long):
         return None
     tips = [tip for tail, tip in long if abs(tail - pole) < 1e-6]
     best, most = None, 0.0
@@ -135,9 +135,11 @@ def similarity_of(
         share = drawn_share(ink, moved_by(each, long), len(long))
         if share > max(most, DRAWN):
             best, most = each, share
-    for _ in range(FITTED if best is not None else 0):
+    if best is None:
+        return None
+    for _ in range(FITTED):
         best = fitted(ink, best, long)
-    if best is None or max(abs(best(tip) - tip) for _, tip in long) < MOVED:
+    if max(abs(best(tip) - tip) for _, tip in long) < MOVED:
         return None
     there = moved_by(best, long)
     own = [own_shaft(ink, shaft) for shaft in there]
