@@ -10,19 +10,31 @@ from cmath import phase
 from collections.abc import Iterator, Sequence
 from math import degrees
 
+import numpy as np
 from msgspec import Struct
 
 from graphkin.reading.drawn_ink import DrawnInk
 from graphkin.reading.vector_ends import OWN, RINGS, SHORTEST, heads_at, is_marked
 from graphkin.text import Words
 
-DRAWN, LEAST = 0.9, 0.7
+DRAWN, LEAST, LONG, KEPT = 0.9, 0.6, 20.0, 0.7
 """The drawn share of all vectors of a plan together, and of each of them, that shows a cause.
 
-A plan of which the share LEAST is drawn where the key has it has none.
+Letters may hide most of a vector shorter than LONG, in mm. A plan of which the share KEPT is drawn
+where the key has it has no cause.
 """
-ENDED = 0.75
-"""The share of the vectors that must have a head or a marked point at their tip."""
+ENDED = 0.4
+"""The share of the vectors whose head or marked point must be seen at their tip.
+
+Heads of several vectors to one point cover each other, and more so in a plan at half its size.
+"""
+NEAR, WIDE = 0.6, 1.5
+"""How far beside a straight line a vector is drawn, and that line beside its place, in mm.
+
+A careful hand is a millimetre off at the far ends of a large plan.
+"""
+FITTED = 2
+"""How many times a similarity is fitted to the lines that are drawn."""
 MOVED = 3.0
 """A cause moves a point of the plan by at least this many mm."""
 FEWEST, SEEN = 3, 0.5
@@ -87,13 +99,20 @@ Shaft = tuple[complex, complex]
 def similarities(
     pole: complex, tips: Sequence[complex], places: Sequence[complex]
 ) -> Iterator[Similarity]:
-    """The similarities that take a tip of the key to one of some places."""
+    """The similarities that take a tip of the key to one of some places, or only towards it.
+
+    A line often runs on beyond its vector, so that its direction is tried at the key's size too.
+    """
     for tip in tips:
         way = tip - pole
         for place in places:
             if abs(way) > SHORTEST and abs(place - pole) > SHORTEST:
-                yield Similarity(pole, (place - pole) / way, False)
-                yield Similarity(pole, (place - pole) / way.conjugate(), True)
+                for size in (
+                    (place - pole) / way,
+                    (place - pole) / abs(place - pole) * abs(way) / way,
+                ):
+                    yield Similarity(pole, size, False)
+                    yield Similarity(pole, size * way / way.conjugate(), True)
 
 
 def similarity_of(
@@ -108,29 +127,75 @@ def similarity_of(
     key has it has no cause.
     """
     long = [shaft for shaft in shafts if abs(shaft[1] - shaft[0]) > SHORTEST]
-    if not long or sum(ink.cover(*shaft, 0.6) for shaft in long) > LEAST * len(long):
+    if not long or sum(ink.cover(*shaft, NEAR) for shaft in long) > KEPT * len(long):
         return None
     tips = [tip for tail, tip in long if abs(tail - pole) < 1e-6]
-    best, most = None, DRAWN
+    best, most = None, 0.0
     for each in similarities(pole, tips, places):
-        drawn = [(each(tail), each(tip)) for tail, tip in long]
-        drawn = [(tail, tip) for tail, tip in drawn if abs(tip - tail) > SHORTEST]
-        moved = max((abs(each(tip) - tip) for _, tip in long), default=0.0)
-        if len(drawn) < max(FEWEST, SEEN * len(long)) or moved < MOVED:
-            continue
-        total = 0.0
-        for tail, tip in drawn:
-            cover = ink.cover(tail, tip, 0.6)
-            if cover < LEAST:
-                break
-            total += cover / len(drawn)
-        else:
-            if total > most and is_ended(ink, drawn):
-                best, most = each, total
-    return best
+        share = drawn_share(ink, moved_by(each, long), len(long))
+        if share > max(most, DRAWN):
+            best, most = each, share
+    if best is None:
+        return None
+    for _ in range(FITTED):
+        best = fitted(ink, best, long)
+    if max(abs(best(tip) - tip) for _, tip in long) < MOVED:
+        return None
+    there = moved_by(best, long)
+    own = [own_shaft(ink, shaft) for shaft in there]
+    ended = [
+        is_ended(ink, *one) or is_ended(ink, *other) for one, other in zip(there, own, strict=True)
+    ]
+    drawn = drawn_share(ink, own, len(long), NEAR) >= DRAWN
+    return best if drawn and sum(ended) >= ENDED * len(ended) else None
 
 
-def is_ended(ink: DrawnInk, shafts: Sequence[Shaft]) -> bool:
-    """Whether heads or marks are at the tips of most vectors."""
-    ended = [heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS) for tail, tip in shafts]
-    return sum(ended) >= ENDED * len(ended)
+def own_shaft(ink: DrawnInk, shaft: Shaft) -> Shaft:
+    """A vector along the straight line that is drawn near it, or where it is without one."""
+    lines = ink.lines(*shaft, WIDE, WIDE)
+    line = max(lines, key=lambda each: each.cover, default=None)
+    return shaft if line is None else (line.start, line.end)
+
+
+def moved_by(similarity: Similarity, shafts: Sequence[Shaft]) -> list[Shaft]:
+    """The vectors that are long enough to be seen where a similarity puts them."""
+    drawn = [(similarity(tail), similarity(tip)) for tail, tip in shafts]
+    return [(tail, tip) for tail, tip in drawn if abs(tip - tail) > SHORTEST]
+
+
+def drawn_share(ink: DrawnInk, shafts: Sequence[Shaft], count: int, beside: float = WIDE) -> float:
+    """The drawn share of vectors of a plan of ``count``; 0 where a long one is not drawn."""
+    if len(shafts) < max(FEWEST, SEEN * count):
+        return 0.0
+    total = 0.0
+    for tail, tip in shafts:
+        cover, long = ink.cover(tail, tip, beside), abs(tip - tail)
+        if cover < LEAST and long > LONG:
+            return 0.0
+        total += cover * long
+    return total / sum(abs(tip - tail) for tail, tip in shafts)
+
+
+def fitted(ink: DrawnInk, similarity: Similarity, shafts: Sequence[Shaft]) -> Similarity:
+    """A similarity with the size and turn that suit the drawn lines best, by least squares.
+
+    A point that was read 0.5 mm off at the end of a short vector gives another scale.
+    """
+    pole, rows, offs = similarity.pole, [], []
+    for tail, tip in shafts:
+        ends = similarity(tail), similarity(tip)
+        lines = ink.lines(*ends, WIDE, WIDE, most=1) if abs(ends[1] - ends[0]) > SHORTEST else []
+        for line in lines:
+            for end in ends:
+                way = (end - pole) / similarity.size * line.way.conjugate()
+                rows.append((way.imag, way.real))
+                offs.append(line.off(pole))
+    if len(rows) < 2 * FEWEST:
+        return similarity
+    real, imag = np.linalg.lstsq(np.array(rows), -np.array(offs), rcond=None)[0]
+    return Similarity(pole, complex(real, imag), similarity.mirrored)
+
+
+def is_ended(ink: DrawnInk, tail: complex, tip: complex) -> bool:
+    """Whether a head or a mark is at the tip of a vector."""
+    return heads_at(ink, tail, tip) >= OWN or is_marked(ink, tip, RINGS)

@@ -147,11 +147,11 @@ def letters_near(ink: DrawnInk, place: complex, letters: str = ALPHABET) -> Mapp
     x, y = (place - corner).real * DENSITY, (place - corner).imag * DENSITY
     half = round(ROOM * DENSITY)
     left, top = max(0, round(x) - half), max(0, round(y) - half)
-    part = slice(top, round(y) + half), slice(left, round(x) + half)
-    dark = bridged(ink.dark[part], ink.known[part] > 0)
+    part = slice(top, max(0, round(y) + half)), slice(left, max(0, round(x) + half))
     found = np.full(len(letters), FLOOR)
     beside = []
-    if min(dark.shape) >= STRAIGHT:
+    if min(ink.dark[part].shape) >= STRAIGHT:
+        dark = bridged(ink.dark[part], ink.known[part] > 0)
         for (bx, by, width, height), seen in pieces(dark):
             far = np.hypot(left + bx + width / 2 - x, top + by + height / 2 - y) / DENSITY
             if ABOUT < far < NEAR:

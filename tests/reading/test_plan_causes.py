@@ -103,3 +103,61 @@ def test_dashes_cover_half_of_a_line_and_end_on_it() -> None:
     pieces = list(dashes(line))
     assert pieces[-1][3] == line[3]
     assert sum(each[3] - each[1] for each in pieces) == pytest.approx(5 * DASH)
+
+
+SHORT = POLE + 6 + 18j
+"""The tip of a vector of the key that is 19 mm long."""
+
+
+def test_the_scale_is_that_of_the_lines_and_not_of_one_point_that_was_read_beside() -> None:
+    """A point 0.5 mm off at the end of a vector of 9.5 mm gave 0.52 times the size."""
+    half = CASES["halved"]
+    shafts = [(POLE, SHORT), *SHAFTS]
+    ink = ink_of(*strokes(half), *vector(POLE, half(SHORT)))
+    beside = half(SHORT) + 0.5 * (SHORT - POLE) / abs(SHORT - POLE)
+    similarity = similarity_of(ink, shafts, POLE, [beside])
+    assert similarity is not None
+    assert similarity.cause.factor == pytest.approx(0.5, abs=0.004)
+
+
+def test_a_short_vector_under_letters_leaves_a_plan_its_cause() -> None:
+    """Of 14 mm on paper no more than the half is seen; a long vector must be drawn."""
+    half, tip = CASES["halved"], TIPS[0] + 28j
+    shafts = [*SHAFTS, (TIPS[0], tip)]
+    part = (half(TIPS[0]), half(TIPS[0]) + 0.55 * (half(tip) - half(TIPS[0])))
+    ink = ink_of(*strokes(half), part)
+    assert similarity_of(ink, shafts, POLE, [half(TIPS[0])]) is not None
+    assert similarity_of(ink, [*SHAFTS, (TIPS[0], tip + 40j)], POLE, [half(TIPS[0])]) is None
+
+
+def test_some_heads_are_enough_where_all_lines_of_a_plan_are_drawn() -> None:
+    """Heads of several vectors to one point cover each other; lines without a head show nothing."""
+    half = CASES["halved"]
+    bare = [(half(tail), half(tip)) for tail, tip in SHAFTS]
+    headed = [stroke for tip in TIPS[::2] for stroke in vector(half(POLE), half(tip))]
+    assert similarity_of(ink_of(*bare, *headed), SHAFTS, POLE, [half(TIPS[0])]) is not None
+    assert similarity_of(ink_of(*bare), SHAFTS, POLE, [half(TIPS[0])]) is None
+
+
+@pytest.mark.parametrize("name", ["spun", "mirrored"])
+def test_the_direction_of_a_line_that_runs_on_beyond_its_vector_is_enough(name: str) -> None:
+    """Of a plan that is turned or mirrored often no point is read: all are far from the key."""
+    drawn = CASES[name]
+    far = [POLE + 1.3 * (drawn(tip) - POLE) for tip in TIPS]
+    ink = ink_of(*strokes(drawn), *((POLE, place) for place in far))
+    similarity = similarity_of(ink, SHAFTS, POLE, far)
+    assert similarity is not None
+    assert similarity.size == pytest.approx(drawn.size, abs=0.01)
+
+
+def test_a_turned_plan_need_not_be_exact() -> None:
+    """A careful hand is a millimetre off at the far ends of a plan."""
+    turned = CASES["spun"]
+    off = {
+        tip: side * 1j * (tip - POLE) / 60 for tip, side in zip(TIPS, (1.1, -1.4, 1.1), strict=True)
+    }
+    drawn = [(turned(a) + off.get(a, 0), turned(b) + off.get(b, 0)) for a, b in SHAFTS]
+    ink = ink_of(*(stroke for shaft in drawn for stroke in vector(*shaft)))
+    similarity = similarity_of(ink, SHAFTS, POLE, [b for _, b in drawn[:3]])
+    assert similarity is not None
+    assert similarity.size == pytest.approx(turned.size, abs=0.03)

@@ -66,6 +66,13 @@ def test_a_point_without_a_letter_has_none() -> None:
     assert max(likely.values()) == FLOOR
 
 
+@pytest.mark.parametrize("place", [-40 + 150j, 500 + 150j, 200 - 60j, 200 + 400j])
+def test_a_point_outside_the_fields_has_no_letter(place: complex) -> None:
+    """Lines that cross beyond the edge of the sheet's fields are read as a point there."""
+    likely = letters_near(ink_of(*LINES), place, LETTERS)
+    assert set(likely.values()) == {FLOOR}
+
+
 def test_a_letter_far_from_the_point_is_not_its_own() -> None:
     far = POINT - 14 - 8j
     likely = letters_near(beside("b", 1), far, LETTERS)
