@@ -8,6 +8,7 @@ One scene is a batch of one: the first axis of every array is the N settings.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -33,17 +34,23 @@ def settled(loops: Equations, read: Reals, determined: Mask) -> tuple[Reals, Mas
     if not loops.slips.counted:
         return read, determined
     values, determined, known = read.copy(), determined.copy(), np.zeros_like(determined)
-    for group in stages(loops.scene, loops):
-        settle(loops, values, determined, known, moved_by(loops, group))
+    for part in parts_in_order(loops):
+        settle(loops, values, determined, known, part)
     settle(loops, values, determined, known, np.ones_like(determined))
     return values, determined
+
+
+@lru_cache(maxsize=64)
+def parts_in_order(loops: Equations) -> tuple[Mask, ...]:
+    """The unknowns of each group, in the order in which the groups become known."""
+    return tuple(moved_by(loops, group) for group in stages(loops.scene, loops))
 
 
 def settle(loops: Equations, values: Reals, determined: Mask, known: Mask, part: Mask) -> None:
     """Settle one group's unknowns: first by linear equations, then counted from their start."""
     turning = np.arange(len(part)) < loops.turning_count
-    within = np.abs(np.nan_to_num(loops.slips.rows[0][:, ~(known | part)])).max(1, initial=0) == 0
-    known |= part & determined & ~turning & ~unrolled(loops, part)
+    beyond = ~(known | part)
+    known |= part & determined & ~turning & ~unrolled(loops, part.tobytes())
     while (free := part & ~known).any():
         straight, solved = solved_straight(loops, np.where(free, 0, values), free, known)
         if solved.any():
@@ -56,19 +63,22 @@ def settle(loops: Equations, values: Reals, determined: Mask, known: Mask, part:
         if not (ready := free & determined & turning).any():
             known |= free
             return
+        within = np.abs(np.nan_to_num(loops.slips.rows[0][:, beyond])).max(1, initial=0) == 0
         k = min(np.flatnonzero(ready).tolist(), key=lambda k: precedence(loops, k, within))
         values[:, k] = counted(loops, values, k)
         known[k] = True
 
 
-def unrolled(loops: Equations, part: Mask) -> Mask:
+@lru_cache(maxsize=64)
+def unrolled(loops: Equations, part_bytes: bytes) -> Mask:
     """The coordinates along a group's bars that touch a wheel known before the group.
 
     A wheel's coordinate on its track is the distance it has rolled, also on a known track that
     guides a bar. Where a bar touches its wheel follows from the bar's angle. That angle is counted
     within half a turn, like an angle that only pins determine.
     """
-    found, of = np.zeros_like(part), loops.turned.of
+    part, of = np.frombuffer(part_bytes, dtype=np.bool_), loops.turned.of
+    found = np.zeros_like(part)
     free = {int(k) + 1 for k in np.flatnonzero(part[: loops.turning_count])}
     tracks = [(of[g.block], of[g.on]) for g in loops.guides if not g.turns_alike]
     led = {wheel for wheel, track in tracks if track not in free}
@@ -96,6 +106,21 @@ def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) ->
     ``values`` holds the known unknowns, and zero for the free ones. Equations that contain other
     unknowns are left out.
     """
+    ready, solved, inverse = straight_part(loops, free.tobytes(), known.tobytes())
+    found = values.copy()
+    if solved.any():
+        found = values - (inverse @ loops.linear(values)[:, ready, None])[:, :, 0]
+    return found, solved
+
+
+@lru_cache(maxsize=64)
+def straight_part(
+    loops: Equations, free_bytes: bytes, known_bytes: bytes
+) -> tuple[Mask, Mask, Reals]:
+    """The linear equations that hold free and known unknowns alone, which of the free ones they
+    determine, and what leads from their gaps to these.
+    """
+    free, known = (np.frombuffer(each, dtype=np.bool_) for each in (free_bytes, known_bytes))
     scale = np.where(free, loops.columns, 0.0)
     every = np.nan_to_num(loops.linear_rows)
     others = np.abs(every[:, :, ~(known | free)])
@@ -103,12 +128,9 @@ def solved_straight(loops: Equations, values: Reals, free: Mask, known: Mask) ->
     waits = np.concatenate([loops.slips.waits, loops.drives.waits])
     ready &= waits[:, ~known].max(axis=1, initial=0) == 0
     rows = every[:, ready] * scale[:, None, :]
-    found = values.copy()
     solved = free & settles(rows[0])
-    if solved.any():
-        gaps = loops.linear(values)[:, ready, None]
-        found = values - (np.linalg.pinv(rows) @ gaps)[:, :, 0] * scale
-    return found, solved
+    inverse = np.linalg.pinv(rows) * scale[:, :, None] if solved.any() else rows
+    return ready, solved, inverse
 
 
 def settles(rows: Reals) -> Mask:
@@ -167,7 +189,9 @@ def start_values(
     known = {name: read[:, n] for n, name in enumerate(places)}
     frame = {name: numbers.complexes(z) for name, z in loops.bodies[FRAME].items()}
     known = {**known, **frame}
-    given = {name: numbers.reals(s) for name, s in slides.items()}
+    driven = {g.block: driven_coordinate(loops, j) for j, g in enumerate(loops.guides) if g.first}
+    given = {block: numbers.reals(s) for block, s in driven.items() if s is not None}
+    given |= {name: numbers.reals(s) for name, s in slides.items()}
     turn: dict[int, Complexes] = {0: numbers.complexes(1)}
     guessed: set[int] = set()
     while len(turn) < loops.turned.count:

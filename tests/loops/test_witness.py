@@ -8,6 +8,7 @@ from msgspec.structs import replace
 
 from graphkin.construction.core.quantities import PointMotion
 from graphkin.construction.core.solution import Solution
+from graphkin.loops import newton
 from graphkin.loops.witness import compare
 from graphkin.mechanism import Mechanism, load
 from graphkin.numbers.kinds import ball_kind
@@ -345,3 +346,21 @@ def test_a_link_that_its_driver_turns_evenly_does_not_accelerate_in_the_loops(na
     k = motion.index[driver.link]
     assert abs(motion.epsilon[0, k]) <= 1e-24 * motion.omega[0, k] ** 2
     assert mechanism.witness(solution).digits["acceleration"] >= 12
+
+
+@pytest.mark.parametrize("name", ["cylinders-two", "gears-rack", "belts-arm"])
+def test_the_check_of_what_is_asked_searches_no_closure(name):
+    """The lengths of driven cylinders, and how far wheels have turned, lead to every angle."""
+    mechanism = mechanism_named(name)
+    found = mechanism.check.examine(mechanism.solve(asked=True))
+    assert found.guessed == ()
+
+
+def test_wheels_are_put_in_order_once(monkeypatch):
+    """Further checks of one mechanism solve for the positions alone."""
+    mechanism = mechanism_named("gears-rack")
+    solution = mechanism.solve()
+    assert mechanism.witness(solution).agrees
+    monkeypatch.setattr(newton, "stages", None)
+    monkeypatch.setattr(newton, "settles", None)
+    assert mechanism.witness(solution).agrees
