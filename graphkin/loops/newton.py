@@ -118,7 +118,7 @@ def straight_part(
     loops: Equations, free_bytes: bytes, known_bytes: bytes
 ) -> tuple[Mask, Mask, Reals]:
     """The linear equations that hold free and known unknowns alone, which of the free ones they
-    determine, and what leads from their gaps to these.
+    determine, and the inverse that leads from their gaps to these, where there are any.
     """
     free, known = (np.frombuffer(each, dtype=np.bool_) for each in (free_bytes, known_bytes))
     scale = np.where(free, loops.columns, 0.0)
@@ -129,8 +129,9 @@ def straight_part(
     ready &= waits[:, ~known].max(axis=1, initial=0) == 0
     rows = every[:, ready] * scale[:, None, :]
     solved = free & settles(rows[0])
-    inverse = np.linalg.pinv(rows) * scale[:, :, None] if solved.any() else rows
-    return ready, solved, inverse
+    if solved.any():
+        rows = np.asarray(np.linalg.pinv(rows) * scale[:, :, None])
+    return np.asarray(ready), solved, rows
 
 
 def settles(rows: Reals) -> Mask:
