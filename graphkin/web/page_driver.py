@@ -135,6 +135,12 @@ class PageDriver(Struct, frozen=True):
     figures: tuple[GivenFigure, ...] = ()
 
     @property
+    def number(self) -> int | None:
+        """The number of the driver among those of the scene, from 1; None for the time."""
+        own = self.driver
+        return None if own is None else self.scene.drivers.index(own) + 1
+
+    @property
     def name(self) -> str:
         """The letter of the coordinate, as markup."""
         return f"*{COORDINATES[self.what].letter}*"
@@ -265,9 +271,7 @@ def window(driven: PageDriver) -> tuple[float, float]:
     """The window that is searched: one turn to each side, or as far as a cycle goes."""
     if driven.what == "turn":
         return driven.start - TURN, driven.start + TURN
-    own = driven.driver
-    number = None if own is None else driven.scene.drivers.index(own) + 1
-    sweep = sweep_of(driven.scene, driver=number)
+    sweep = sweep_of(driven.scene, driver=driven.number)
     if driven.what == "time":
         return min(sweep.low, driven.start), driven.start + sweep.high
     low, high = reachable_ranges(sweep).spans[0]

@@ -206,7 +206,7 @@ class Tracing(Struct, frozen=True, dict=True):
     def sweep(self) -> Sweep:
         """The sweep of the driver, as far as the page shows."""
         if self.driven.what != "time":
-            return sweep_of(self.mechanism.scene)
+            return sweep_of(self.mechanism.scene, driver=self.driven.number)
         low, high = window(self.driven)
         return sweep_of(self.mechanism.scene, low=low, high=high)
 
