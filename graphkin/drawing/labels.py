@@ -137,12 +137,8 @@ class Label(Struct, frozen=True):
 
     def whole_area(self, spot: Spot) -> Rect:
         """The box of the text, or of the circle around it, with the air that a leader keeps."""
-        left, top, right, low = self.area(spot)
-        if self.ring:
-            width, height = self.size()
-            left, right = spot.x - width / 2, spot.x + width / 2
-            top, low = spot.y - height / 2, spot.y + height / 2
-        return left - AIR, top - AIR, right + AIR, low + AIR
+        wide, high = (side / 2 + AIR for side in self.size())
+        return spot.x - wide, spot.y - high, spot.x + wide, spot.y + high
 
     @property
     def point(self) -> XY:

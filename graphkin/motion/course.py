@@ -251,14 +251,14 @@ class Course(Struct, frozen=True, dict=True):
         found: dict[int, tuple[Any, ...]] = dict(closed or {})
         lost = np.any([way.lost(at) for way in self.closures], axis=0)
         needed = self.closers if keep is None else self.closed_behind(keep)
-        for number, way in zip(self.closers, self.closures, strict=False):
+        for k, way in enumerate(self.closures):
+            number = self.closers[k]
             if number in found or number not in needed:
                 continue
             known = self.known_of(number, values, len(at), found)
             stated = closing(self.program.steps[number]).number
             with np.errstate(all="ignore"):
-                group = self.group(self.closers.index(number))
-                found[number] = way.closed(group, stated, at, known, lost)
+                found[number] = way.closed(self.group(k), stated, at, known, lost)
         return found
 
     def closed_behind(self, keep: tuple[int, ...]) -> frozenset[int]:

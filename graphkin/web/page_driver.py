@@ -279,16 +279,9 @@ def window(driven: PageDriver) -> tuple[float, float]:
 
 
 def reach_of(
-    driven: PageDriver,
-    graph: Graph,
-    closed: Sequence[int],
-    near: Callable[[Any], dict[str, Any]],
-    *,
-    whole: bool,
+    driven: PageDriver, graph: Graph, closed: Sequence[int], near: Callable[[Any], dict[str, Any]]
 ) -> Reach | None:
     """The range around the start where the outputs ``closed`` are finite; None for one position.
-
-    A ``whole`` motion goes round without an end.
 
     ``near`` gives the other inputs of the graph at positions of the driver. A gap narrower than
     half a degree may be missed; a change point, where rounding decides, is none.
@@ -311,16 +304,12 @@ def reach_of(
             good[~good] = is_finite(bad - beside) & is_finite(bad + beside)
         return good
 
-    return around(driven, at, closes, whole=whole)
+    return around(driven, at, closes)
 
 
-def around(driven: PageDriver, at: Any, closes: Any, *, whole: bool) -> Reach | None:
+def around(driven: PageDriver, at: Any, closes: Any) -> Reach | None:
     """The range around the start, with its ends refined in rounds."""
-    good = closes(at)
     here = int(np.abs(at - driven.start).argmin())
-    if whole and driven.what == "turn" and good[here - GRID // 2 : here + GRID // 2 + 1].all():
-        first = TURN * np.floor(driven.start / TURN)
-        return Reach(float(first), float(first + TURN), True)
     ends = []
     for sense in (-1, 1):
         places = at[here::sense]

@@ -55,14 +55,14 @@ def sides(scene: Scene, piece: Piece) -> dict[str, Branch]:
 
 
 def turned_over(scene: Scene, piece: Piece) -> Iterator[tuple[float, Set[str]]]:
-    """Where a piece begins, and each place in it where drawn points change their side, with these.
+    """Where a piece begins, and each place in it where drawn points change their side.
 
-    Bars that keep a link parallel are drawn by crossings, whose side changes where all is in line.
+    With each place come the points that lie from there on the other side than the scene says. Bars
+    that keep a link parallel are drawn by crossings, whose side changes where all is in line.
     """
     low, high = piece.low.at, piece.high.at
     drawn = {n: s for n, s in scene.branches.items() if isinstance(s, Side)}
     free = {name: side for name, side in drawn.items() if name not in piece.branches}
-    yield low, frozenset()
 
     def signs(places: Reals) -> Reals:
         points = {*free, *(each for side in free.values() for each in (side.first, side.second))}
@@ -76,13 +76,15 @@ def turned_over(scene: Scene, piece: Piece) -> Iterator[tuple[float, Set[str]]]:
         return np.asarray(np.sign(np.stack(on_each, axis=1)))
 
     if not free:
+        yield low, frozenset()
         return
     count = math.ceil((high - low) / (piece.course.sweep.usual / PARTS))
     places = np.linspace(low, high, count + 1)[:-1] + (high - low) / (2 * count)
-    for n in np.flatnonzero((np.diff(signs(places), axis=0) != 0).any(axis=1)).tolist():
-        change = next(beside(signs, float(places[n]), float(places[n + 1]), 0.0))
-        after = signs(places[n + 1 : n + 2])[0]
-        yield change, frozenset(name for name, side in zip(free, after, strict=True) if side < 0)
+    found = signs(places)
+    over = [frozenset(np.array([*free])[row < 0].tolist()) for row in found]
+    yield low, over[0]
+    for n in np.flatnonzero((np.diff(found, axis=0) != 0).any(axis=1)).tolist():
+        yield next(beside(signs, float(places[n]), float(places[n + 1]), 0.0)), over[n + 1]
 
 
 def on_other_side(steps: Sequence[Step], points: Set[str]) -> Iterator[Step]:
@@ -319,8 +321,7 @@ class Tracing(Struct, frozen=True, dict=True):
         if self.closings:
             return around(self.path, self.driven, self.sweep.start, self.closings)
         outputs = [self.tape.outputs[i] for i in closed]
-        whole = self.path.whole
-        reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs, whole=whole)
+        reach = reach_of(self.driven, self.graph, outputs, self.fixed_inputs)
         if reach is not None and self.sweep.whole and self.path.whole:
             first, turns = TURN * floor(self.driven.start / TURN), self.path.turns
             back = 1 <= turns <= MOST_TURNS

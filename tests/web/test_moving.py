@@ -26,12 +26,13 @@ from graphkin.motion.pieces import reachable_ranges
 from graphkin.motion.sweep import sweep_of
 from graphkin.numbers.plane import Ratio
 from graphkin.scene.model import FRAME
+from graphkin.scene.read_scene import read_text
 from graphkin.text import words
 from graphkin.web.frames import place_in
 from graphkin.web.moving import Moving, moving, still
 from graphkin.web.page_driver import driven_by, window
 from graphkin.web.screen_sheets import ScreenSheet, screen_sheets
-from tests.chosen import EVERY, HALVES, number_of
+from tests.chosen import EVERY, FOLDER, HALVES, number_of
 from tests.documents.sheet_tools import mechanism_named
 from tests.mechanisms import mechanism_of
 from tests.scene_files import FOLDER as TESTS
@@ -269,19 +270,42 @@ def test_marks_follow_as_python_draws_them(page, name):
 )
 def test_a_page_goes_as_a_cycle_does_and_as_far(page, name):
     """Through change points, and no farther, with every pin where a row of the cycle has it."""
-    sheets, found = page_of(name)
-    rows = cycle(named(name), steps=36)
+    goes_as_a_cycle(page, named(name), *page_of(name))
+
+
+def test_a_page_of_parallel_cranks_may_start_on_the_other_side(page):
+    """Where the whole turn begins, the crossing is then not the one that is drawn."""
+    text = (FOLDER / "mobility-parallel-cranks.toml").read_text(encoding="utf-8")
+    text = text.replace("value = 60, min = 20, max = 160", "value = 270, min = 200, max = 340")
+    mechanism = Mechanism(read_text(text.replace("left of B-D", "right of B-D"), "cranks"))
+    sheets = screen_sheets(mechanism)
+    found = moving(mechanism, sheets)
+    assert found is not None
+    goes_as_a_cycle(page, mechanism, sheets, found)
+
+
+def goes_as_a_cycle(
+    page: Any, mechanism: Mechanism, sheets: Sequence[ScreenSheet], found: Moving
+) -> None:
+    """Holds the pins of the first sheet to the rows of a cycle, and the range to its range."""
+    rows = cycle(mechanism, steps=36)
     low, high = rows.path.spans[0]
     ends = (low / found.driven.metres, high / found.driven.metres)
     assert (found.reach.low, found.reach.high) == pytest.approx(ends, abs=1e-6)
     places = [at / found.driven.metres for at in rows.at]
+    pins = {
+        mark_id: mark.name
+        for mark_id, mark, s, _ in fields(sheets)
+        if s == 0 and isinstance(mark, CircleMark) and mark.cls == "pin"
+    }
     for k, here in enumerate(ran(page, found, places)):
-        at = marks_of(name, here)
-        for mark_id, mark, s, _ in fields(sheets):
-            if s == 0 and mark_id in at and isinstance(mark, CircleMark) and mark.cls == "pin":
-                place = np.broadcast_to(rows.solution.points[mark.name].position, len(places))[k]
-                there = sheets[0].layout.mechanism(complex(place))
-                assert at[mark_id] == pytest.approx(there, abs=LIMIT), (mark.name, places[k])
+        assert here["ok"], places[k]
+        for mark_id in pins.keys() & here["marks"].keys():
+            written = here["marks"][mark_id]
+            at = rows.solution.points[pins[mark_id]].position
+            there = sheets[0].layout.mechanism(complex(np.broadcast_to(at, len(places))[k]))
+            drawn = [float(written["cx"]), float(written["cy"])]
+            assert drawn == pytest.approx(there, abs=LIMIT), (pins[mark_id], places[k])
 
 
 @pytest.mark.parametrize("name", WHICH)
